@@ -1,0 +1,14 @@
+/* export.h - from a Scene to the POV-Ray 3.7 scene that draws the same picture (MAPPING.md). */
+#ifndef ECLAIRAGE_POVRAY_EXPORT_H
+#define ECLAIRAGE_POVRAY_EXPORT_H
+
+#include "base/status.h"
+#include "base/text.h"
+#include "raytracer.h"
+
+/* Append the .pov. It states everything explicitly, includes nothing and renders alone; its first
+ * comment is the command to render it as name (a file name, made harmless in the comment).
+ * STATUS_INEXPRESSIBLE, with the line of the scene where there is one, for what POV-Ray cannot say. */
+Status exportPov(const Scene *scene, const char *name, Text *pov);
+
+#endif

@@ -1,0 +1,24 @@
+/* run.h - run POV-Ray as a program, apart from the user's and the folder's configuration. */
+#ifndef ECLAIRAGE_POVRAY_RUN_H
+#define ECLAIRAGE_POVRAY_RUN_H
+
+#include "base/status.h"
+#include "image/image.h"
+
+typedef struct PovraySettings {
+    int width, height;
+    int bitDepth; /* 8 or 16 */
+    Encoding encoding;
+    int threads;           /* POV-Ray's work threads, at least 1 */
+    double timeoutSeconds; /* then it is killed: STATUS_POVRAY */
+} PovraySettings;
+
+/* Whether there is a program povray on the PATH; STATUS_POVRAY with the command that installs it. */
+Status findPovray(void);
+
+/* Render the text of a .pov into *image, which the caller frees. STATUS_POVRAY when POV-Ray is missing,
+ * fails (with the end of what it said) or takes too long; STATUS_INTERRUPTED when cancelled. Nothing is
+ * left behind: no process, no file. */
+Status runPovray(const char *pov, const PovraySettings *settings, Image *image);
+
+#endif

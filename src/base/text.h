@@ -1,0 +1,50 @@
+/* text.h - growable text, and numbers as text.
+ *
+ * Invariant: a Text that was initialised by textInit or {0} is either valid (data is a NUL-terminated
+ * string of length bytes, or NULL when empty) or failed (out of memory): a failed Text ignores every
+ * append, so that a writer checks once at the end.
+ * Numbers are written and read the same in every locale.
+ */
+#ifndef ECLAIRAGE_BASE_TEXT_H
+#define ECLAIRAGE_BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct Text {
+    char *data;
+    size_t length, capacity;
+    bool failed;
+} Text;
+
+/* Append bytes, a string, or a printf-style text (which must not contain floating-point
+ * conversions: they follow the locale; use textAppendDouble). */
+void textAppendBytes(Text *text, const void *bytes, size_t length);
+void textAppend(Text *text, const char *string);
+void textAppendFormat(Text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Append the shortest decimal number that reads back as exactly this double; "nan", "inf", "-inf"
+ * for what is not finite. */
+void textAppendDouble(Text *text, double value);
+
+/* The string, never NULL; owned by the text. */
+const char *textString(const Text *text);
+
+/* Free it and make it empty again. */
+void textFree(Text *text);
+
+enum {
+    NUMBER_TEXT_SIZE = 32
+};
+
+/* What textAppendDouble appends, into a buffer of NUMBER_TEXT_SIZE bytes. Returns buffer. */
+char *formatDouble(char buffer[NUMBER_TEXT_SIZE], double value);
+
+/* The shortest decimal number that reads back as exactly this float. */
+char *formatFloat(char buffer[NUMBER_TEXT_SIZE], float value);
+
+/* Read a decimal number as strtod does in the C locale: correctly rounded; *end is set behind it, or
+ * to string where there is none. Out of range gives +-HUGE_VAL or a value near 0, as strtod. */
+double parseDouble(const char *string, char **end);
+
+#endif

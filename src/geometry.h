@@ -1,0 +1,81 @@
+/* geometry.h - points, directions and rays (handout: geometry.h).
+ *
+ * Right-handed world space, y up, lengths in scene units, everything in double. A Vector3D is a point
+ * or a direction; which one, and whether it is of unit length, its name and comment say.
+ */
+#ifndef ECLAIRAGE_GEOMETRY_H
+#define ECLAIRAGE_GEOMETRY_H
+
+#include <math.h>
+
+typedef struct Vector3D {
+    double x, y, z;
+} Vector3D;
+
+/* A half-line: the points origin + t direction for t > 0. */
+typedef struct Ray {
+    Vector3D origin;
+    Vector3D direction; /* of unit length: t is then a distance */
+} Ray;
+
+static inline Vector3D createVector(double x, double y, double z)
+{
+    return (Vector3D){x, y, z};
+}
+
+static inline Ray createRay(Vector3D origin, Vector3D direction)
+{
+    return (Ray){origin, direction};
+}
+
+static inline Vector3D addVectors(Vector3D a, Vector3D b)
+{
+    return (Vector3D){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static inline Vector3D subVectors(Vector3D a, Vector3D b)
+{
+    return (Vector3D){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline Vector3D multVector(Vector3D v, double factor)
+{
+    return (Vector3D){v.x * factor, v.y * factor, v.z * factor};
+}
+
+static inline double dot(Vector3D a, Vector3D b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline Vector3D cross(Vector3D a, Vector3D b)
+{
+    return (Vector3D){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* The length. */
+static inline double norm(Vector3D v)
+{
+    return sqrt(dot(v, v));
+}
+
+/* The point at distance t on the ray. */
+static inline Vector3D pointOnRay(const Ray *ray, double t)
+{
+    return addVectors(ray->origin, multVector(ray->direction, t));
+}
+
+/* The largest of the coordinates' magnitudes: what rounding errors of a point are in proportion to. */
+static inline double largestCoordinate(Vector3D v)
+{
+    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+}
+
+/* The direction of v with length 1. The zero vector, which has no direction, stays as it is. Right for
+ * every finite v, also where |v|^2 would overflow or vanish. */
+Vector3D normalize(Vector3D v);
+
+/* v mirrored at the plane with unit normal n (handout, exercise 03b): R = V - N * 2.0 * dot(V, N). */
+Vector3D reflect(Vector3D v, Vector3D n);
+
+#endif

@@ -1,0 +1,125 @@
+/* raytracer.h - the scene, and the course's tracer that draws it (handout: raytracer.h).
+ *
+ * This is the scalar, double-precision, obvious tracer: what a student reads, and the truth that the
+ * other engines are tested against (`--engine reference`). One ray at a time: find the nearest surface,
+ * ask of each light whether it reaches that point, add up what the surface returns.
+ */
+#ifndef ECLAIRAGE_RAYTRACER_H
+#define ECLAIRAGE_RAYTRACER_H
+
+#include "base/status.h"
+#include "base/tolerance.h"
+#include "colors.h"
+#include "geometry.h"
+#include "shading.h"
+#include "shapes/shape.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* How a light grows weaker with the distance d: by 1/d^2, or not at all. */
+typedef enum Falloff {
+    FALLOFF_INVERSE_SQUARE,
+    FALLOFF_NONE
+} Falloff;
+
+/* A point that shines the same in all directions. */
+typedef struct Light {
+    Vector3D position;
+    Color3f color; /* linear, at least 0, not limited to 1 */
+    Falloff falloff;
+} Light;
+
+typedef struct Camera {
+    Vector3D position;
+    Vector3D direction; /* of any length but 0 */
+    Vector3D up;        /* not parallel to direction */
+    double fov;         /* the vertical angle of the picture in degrees, 0 < fov < 180 */
+} Camera;
+
+typedef struct ImageSettings {
+    int width, height; /* 1 .. 65535 */
+    int bitDepth;      /* 8 or 16 */
+    Encoding encoding;
+} ImageSettings;
+
+typedef struct RenderSettings {
+    ShadingModel model;
+    bool shadows;
+    double shadowBias; /* NAN: the tracer's own rule (see isInShadow); else, in scene units and at least
+                        * 0: a blocker counts when it is farther than this along the shadow ray */
+} RenderSettings;
+
+/* What an author wrote. The arrays grow as things are added and belong to the scene. */
+typedef struct Scene {
+    ImageSettings image;
+    Camera camera;
+    RenderSettings render;
+    Color3f background;
+    Light *lights;
+    size_t lightCount, lightCapacity;
+    Object *objects;
+    size_t objectCount, objectCapacity;
+    Tolerance tolerance; /* for the comparison with POV-Ray */
+} Scene;
+
+/* A light with the handout's falloff, 1/d^2. */
+Light createLight(Vector3D position, Color3f color);
+
+/* An empty scene with the defaults of the scene format: 640 x 480, camera at the origin looking along
+ * -z with a vertical angle of 60 degrees, Phong with shadows, black background. Needs no memory; free
+ * what is added with freeScene. */
+Scene createScene(void);
+void freeScene(Scene *scene);
+
+/* Add a copy. False when memory runs out, and then the scene is as before. */
+bool addLightToScene(Scene *scene, Light light);
+bool addObjectToScene(Scene *scene, Object object);
+bool addSphereToScene(Scene *scene, Sphere sphere);
+bool addCubeToScene(Scene *scene, Cube cube);
+bool addBoxToScene(Scene *scene, Box box);
+bool addPlaneToScene(Scene *scene, Plane plane);
+
+/* The nearest object that the ray meets at t > 0; of two at the same distance the one added first. On
+ * a miss the intersection is untouched. */
+bool throwRayThroughScene(Ray ray, Scene scene, Intersection *intersection);
+
+/* The handout's three functions: draw the scene with that model, whatever the scene says, on all
+ * processors. The camera's picture fills the framebuffer, whose aspect counts. */
+void simpleRaytracing(Scene scene, Framebuffer *framebuffer);
+void lambertRaytracing(Scene scene, Framebuffer *framebuffer);
+void phongRaytracing(Scene scene, Framebuffer *framebuffer);
+
+/* The camera as three vectors: the ray through the point (u, v) of the picture, both in -1/2..1/2, u to
+ * the right and v up, has the direction forward + u right + v up. */
+typedef struct CameraFrame {
+    Vector3D position;
+    Vector3D forward; /* of unit length */
+    Vector3D right;   /* the picture's width at distance 1 */
+    Vector3D up;      /* its height there */
+} CameraFrame;
+
+CameraFrame cameraFrame(const Camera *camera, int width, int height);
+
+/* The ray through a point of the picture in pixels: (0, 0) is its top left corner, the middle of the
+ * first pixel (0.5, 0.5). */
+Ray cameraRay(const CameraFrame *frame, double x, double y, int width, int height);
+
+/* How many rays were traced. */
+typedef struct RayCounts {
+    uint64_t primary, shadow, secondary;
+} RayCounts;
+
+typedef struct RenderOptions {
+    int threads;                                  /* at least 1 */
+    void (*progress)(void *context, double done); /* NULL, or called from any thread; done in 0..1 */
+    void *progressContext;
+} RenderOptions;
+
+/* Draw the scene as it says, into a framebuffer of any size. The same picture for any number of
+ * threads. STATUS_INTERRUPTED when cancelled; counts may be NULL. */
+Status renderReference(const Scene *scene, Framebuffer *framebuffer, const RenderOptions *options,
+                       RayCounts *counts);
+
+#endif

@@ -1,0 +1,36 @@
+/* shading.c - what a surface does with light; see shading.h.
+ *
+ * Each term is computed in double up to the point where it meets a colour and rounded to float there,
+ * in the order in which POV-Ray does it, so that the two pictures can agree in every bit.
+ */
+#include "shading.h"
+
+Material createMaterial(Color3f diffuse, Color3f specular, float shininess)
+{
+    return (Material){diffuse, specular, shininess};
+}
+
+Material defaultMaterial(void)
+{
+    return createMaterial(createColor(0.8f, 0.8f, 0.8f), createColor(0, 0, 0), 32);
+}
+
+Color3f diffuseReflection(const Material *material, Color3f light, Vector3D n, Vector3D l)
+{
+    double cosine = dot(n, l);
+    return multColors(scaleColor(material->diffuse, cosine > 0 ? cosine : 0), light);
+}
+
+Color3f specularReflection(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v)
+{
+    /* specFactor = max(0, dot(R, V))^shininess */
+    Vector3D r = reflect(multVector(l, -1), n);
+    double cosine = dot(r, v);
+    if (cosine <= 0 || colorIsBlack(material->specular))
+        return createColor(0, 0, 0);
+    double specFactor = pow(cosine, (double)material->shininess);
+    Color3f specular = material->specular;
+    return createColor((float)((double)specular.r * specFactor * (double)light.r),
+                       (float)((double)specular.g * specFactor * (double)light.g),
+                       (float)((double)specular.b * specFactor * (double)light.b));
+}

@@ -1,0 +1,84 @@
+/* sphere.c - all points at one distance from a centre; see sphere.h.
+ *
+ * A point o + t d of the ray (|d| = 1) is on the sphere when |o + t d - c|^2 = r^2. With f = o - c:
+ *     t^2 + 2 t (f.d) + f.f - r^2 = 0
+ * The textbook's discriminant (f.d)^2 - (f.f - r^2) loses its digits when the sphere is far away or
+ * large; r^2 - |f - (f.d) d|^2 is the same number without that loss, since f - (f.d) d is the vector
+ * from the centre to the ray's nearest point (Haines, Gunther and Akenine-Moeller 2019, "Precision
+ * improvements for ray/sphere intersection", Ray Tracing Gems, eq. 3), and of the two solutions the
+ * one that would be a difference of nearly equal numbers comes from the other as c / q (eq. 5).
+ */
+#include "shapes/sphere.h"
+
+#include "shapes/shape.h"
+
+Sphere createSphere(Vector3D center, double radius, Material material)
+{
+    return (Sphere){material, center, radius};
+}
+
+static double sphereDistance(const Object *object, const Ray *ray)
+{
+    const Sphere *sphere = &object->sphere;
+    Vector3D f = subVectors(ray->origin, sphere->center);
+    double b = -dot(f, ray->direction);
+    double squaredRadius = sphere->radius * sphere->radius;
+
+    /* Find how far the ray's nearest point is from the centre. */
+    Vector3D nearest = addVectors(f, multVector(ray->direction, b));
+    double discriminant = squaredRadius - dot(nearest, nearest);
+    if (!(discriminant >= 0))
+        return INFINITY;
+
+    /* Solve for the two distances, nearer <= farther. */
+    double c = dot(f, f) - squaredRadius;
+    double q = b + copysign(sqrt(discriminant), b);
+    double other = q != 0 ? c / q : 0;
+    double nearer = fmin(q, other), farther = fmax(q, other);
+
+    /* Take the nearest one in front of the origin. */
+    if (nearer > 0)
+        return nearer;
+    return farther > 0 ? farther : INFINITY;
+}
+
+static Vector3D sphereNormal(const Object *object, const Ray *ray, Vector3D position)
+{
+    Vector3D n = multVector(subVectors(position, object->sphere.center), 1 / object->sphere.radius);
+    return turnedToRay(n, ray);
+}
+
+static bool sphereContains(const Object *object, Vector3D point)
+{
+    return norm(subVectors(point, object->sphere.center)) < object->sphere.radius;
+}
+
+static bool sphereBounds(const Object *object, Bounds *bounds)
+{
+    double r = object->sphere.radius;
+    bounds->min = subVectors(object->sphere.center, createVector(r, r, r));
+    bounds->max = addVectors(object->sphere.center, createVector(r, r, r));
+    return true;
+}
+
+static double sphereMagnitude(const Object *object)
+{
+    return largestCoordinate(object->sphere.center) + object->sphere.radius;
+}
+
+static void sphereWritePov(const Object *object, double scale, Text *pov)
+{
+    textAppend(pov, "sphere { ");
+    textAppendPovVector(pov, object->sphere.center, scale);
+    textAppend(pov, ", ");
+    textAppendPovNumber(pov, object->sphere.radius * scale);
+}
+
+const Shape sphereShape = {"sphere",     sphereDistance,  sphereNormal,  sphereContains,
+                           sphereBounds, sphereMagnitude, sphereWritePov};
+
+bool intersectsSphere(Ray ray, Sphere sphere, Intersection *intersection)
+{
+    Object object = {.kind = SHAPE_SPHERE, .sphere = sphere};
+    return intersectsObject(&ray, &object, intersection);
+}
