@@ -200,11 +200,12 @@ static Color3f shade(const Scene *scene, const Object *object, const Ray *ray, c
 {
     const Material *material = &hit->material;
     ShadingModel model = scene->render.model;
+    bool hasHighlight = !colorIsBlack(material->specular);
     Vector3D v = multVector(ray->direction, -1);
     if (model == MODEL_SIMPLE && (!scene->render.shadows || scene->lightCount == 0))
         return material->diffuse;
 
-    Color3f color = createColor(0, 0, 0);
+    Color3f diffuse = createColor(0, 0, 0), highlight = createColor(0, 0, 0);
     for (size_t i = 0; i < scene->lightCount; i++) {
         const Light *light = &scene->lights[i];
         Vector3D il = subVectors(light->position, hit->position);
@@ -223,14 +224,16 @@ static Color3f shade(const Scene *scene, const Object *object, const Ray *ray, c
         if (model == MODEL_SIMPLE)
             return material->diffuse;
 
-        /* Add Ic * Lc * dot(N, IL/|IL|) / |IL|^2, and for Phong Ispec * Lc * specFactor / |IL|^2. */
+        /* Add Ic * Lc * dot(N, IL/|IL|) / |IL|^2, and for Phong Lc * specFactor / |IL|^2. */
         Color3f arriving = lightAtDistance(light, norm(il));
-        Color3f returned = diffuseReflection(material, arriving, hit->normal, l);
-        if (model == MODEL_PHONG)
-            returned = addColors(returned, specularReflection(material, arriving, hit->normal, l, v));
-        color = addColors(color, returned);
+        diffuse = addColors(diffuse, diffuseReflection(material, arriving, hit->normal, l));
+        if (model == MODEL_PHONG && hasHighlight)
+            highlight = addColors(highlight, specularHighlight(material, arriving, hit->normal, l, v));
     }
-    return color;
+
+    /* Ispec is the same for all lights, so it multiplies their sum. In this order and with each step
+     * rounded to float, POV-Ray's three layers (povray/MAPPING.md) give the same bits. */
+    return addColors(diffuse, multColors(material->specular, highlight));
 }
 
 /* The colour that comes along the ray. */

@@ -21,16 +21,12 @@ Color3f diffuseReflection(const Material *material, Color3f light, Vector3D n, V
     return multColors(scaleColor(material->diffuse, cosine > 0 ? cosine : 0), light);
 }
 
-Color3f specularReflection(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v)
+Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v)
 {
     /* specFactor = max(0, dot(R, V))^shininess */
     Vector3D r = reflect(multVector(l, -1), n);
     double cosine = dot(r, v);
-    if (cosine <= 0 || colorIsBlack(material->specular))
+    if (!(cosine > 0))
         return createColor(0, 0, 0);
-    double specFactor = pow(cosine, (double)material->shininess);
-    Color3f specular = material->specular;
-    return createColor((float)((double)specular.r * specFactor * (double)light.r),
-                       (float)((double)specular.g * specFactor * (double)light.g),
-                       (float)((double)specular.b * specFactor * (double)light.b));
+    return scaleColor(light, pow(cosine, (double)material->shininess));
 }

@@ -30,8 +30,9 @@ Material defaultMaterial(void);
 /* Lambert's term, Ic * Lc * dot(N, L); 0 where dot(N, L) <= 0. */
 Color3f diffuseReflection(const Material *material, Color3f light, Vector3D n, Vector3D l);
 
-/* Phong's highlight, Ispec * Lc * max(0, dot(R, V))^shininess, R being -L reflected at N. It has no
- * factor dot(N, L): whoever calls it must have left out the lights behind the surface. */
-Color3f specularReflection(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v);
+/* Phong's highlight without its colour, Lc * max(0, dot(R, V))^shininess, R being -L reflected at N; the
+ * specular colour Ispec multiplies the sum over all lights. It has no factor dot(N, L): whoever calls it
+ * must have left out the lights behind the surface. */
+Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v);
 
 #endif

@@ -1,0 +1,47 @@
+/* pov_scale.c - the size at which POV-Ray sees a scene as we do; see pov_scale.h. */
+#include "povray/pov_scale.h"
+
+/* Parts that are a hundred times POV-Ray's shadow tolerance need no help. */
+static const double SMALLEST_PART = 0.1;
+static const double FARTHEST_PART = 1e4;
+/* Even for the sake of small parts nothing is moved farther away; POV-Ray's limit is 1e7. */
+static const double FARTHEST_EXPORTED = 0x1p22;
+
+/* The distance from the camera to the farthest corner of a box. */
+static double farthestCorner(Bounds bounds, Vector3D camera)
+{
+    Vector3D toMin = subVectors(bounds.min, camera), toMax = subVectors(bounds.max, camera);
+    return norm(createVector(fmax(fabs(toMin.x), fabs(toMax.x)), fmax(fabs(toMin.y), fabs(toMax.y)),
+                             fmax(fabs(toMin.z), fabs(toMax.z))));
+}
+
+double povScale(const Scene *scene)
+{
+    /* Find the smallest part of the scene and how far its farthest part is from the camera. */
+    double smallest = INFINITY, farthest = 0;
+    for (size_t i = 0; i < scene->objectCount; i++) {
+        const Object *object = &scene->objects[i];
+        Bounds bounds;
+        if (objectShape(object)->bounds(object, &bounds)) {
+            Vector3D size = subVectors(bounds.max, bounds.min);
+            smallest = fmin(smallest, fmin(size.x, fmin(size.y, size.z)));
+            farthest = fmax(farthest, farthestCorner(bounds, scene->camera.position));
+        }
+    }
+    for (size_t i = 0; i < scene->lightCount; i++)
+        farthest = fmax(farthest, norm(subVectors(scene->lights[i].position, scene->camera.position)));
+
+    /* A scene of planes only is as large as its lights are far. */
+    if (!isfinite(smallest))
+        smallest = farthest;
+    if (!(smallest > 0) || !isfinite(farthest) || !(farthest > 0))
+        return 1;
+    if (smallest >= SMALLEST_PART && farthest <= FARTHEST_PART)
+        return 1;
+
+    /* Bring the smallest part to a size of 1 to 2, and the farthest within reach. */
+    double scale = exp2(-floor(log2(smallest)));
+    while (farthest * scale > FARTHEST_EXPORTED)
+        scale /= 2;
+    return scale;
+}

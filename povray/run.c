@@ -1,0 +1,223 @@
+/* run.c - run POV-Ray as a program; see run.h.
+ *
+ * POV-Ray reads povray.conf and povray.ini from the user's home, from the current folder and from where
+ * POVINI says, and any of them can change the picture without a word. So each run gets a folder of its
+ * own, which is its home and its current folder, an empty povray.ini named by POVINI, and no other
+ * variable but PATH. All it leaves behind (picture, state file, log) is in that folder, which is removed.
+ */
+#define _GNU_SOURCE
+#include "povray/run.h"
+
+#include "base/cancel.h"
+#include "base/files.h"
+#include "base/text.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#define INSTALL_HINT "install it with: sudo apt-get install povray"
+
+/* The program's path by the PATH, or NULL; freed by the caller. */
+static char *searchPath(const char *program)
+{
+    const char *path = getenv("PATH");
+    if (path == NULL || *path == '\0')
+        path = "/usr/local/bin:/usr/bin:/bin";
+    while (*path != '\0') {
+        size_t length = strcspn(path, ":");
+        Text candidate = {0};
+        textAppendBytes(&candidate, path, length);
+        textAppendFormat(&candidate, "%s%s", length > 0 ? "/" : "./", program);
+        struct stat information;
+        if (!candidate.failed && access(candidate.data, X_OK) == 0 &&
+            stat(candidate.data, &information) == 0 && S_ISREG(information.st_mode)) {
+            /* The run changes its folder, so a relative path must be made absolute. */
+            char *absolute = realpath(candidate.data, NULL);
+            textFree(&candidate);
+            return absolute;
+        }
+        textFree(&candidate);
+        path += length;
+        path += *path == ':';
+    }
+    return NULL;
+}
+
+Status findPovray(void)
+{
+    char *program = searchPath("povray");
+    bool found = program != NULL;
+    free(program);
+    return found ? statusOk() : statusError(STATUS_POVRAY, "POV-Ray is not installed; " INSTALL_HINT);
+}
+
+static double monotonicSeconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Start the program in the folder with its output in the log; 0 on failure. Between fork and exec only
+ * what is safe in a program with threads. */
+static pid_t startIn(const char *folder, const char *program, char *const arguments[],
+                     char *const environment[])
+{
+    pid_t child = fork();
+    if (child != 0)
+        return child > 0 ? child : 0;
+    /* A process group of its own: Ctrl-C on the terminal is for us, and we end it. */
+    setpgid(0, 0);
+    int null = open("/dev/null", O_RDONLY);
+    if (chdir(folder) != 0 || null < 0)
+        _exit(127);
+    int log = open("log", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (log < 0 || dup2(null, 0) < 0 || dup2(log, 1) < 0 || dup2(log, 2) < 0)
+        _exit(127);
+    signal(SIGPIPE, SIG_DFL);
+    execve(program, arguments, environment);
+    _exit(127);
+}
+
+/* Wait until the process ends, looking for a cancel and at the clock; it is killed for either.
+ * *ended is how waitpid saw it end. */
+static Status waitFor(pid_t child, double timeoutSeconds, int *ended)
+{
+    double deadline = monotonicSeconds() + timeoutSeconds;
+    for (;;) {
+        pid_t result = waitpid(child, ended, WNOHANG);
+        if (result == child)
+            return statusOk();
+        if (result < 0 && errno != EINTR)
+            return statusError(STATUS_POVRAY, "cannot wait for POV-Ray: %s", strerror(errno));
+        bool late = monotonicSeconds() > deadline;
+        if (cancelRequested() || late) {
+            kill(-child, SIGKILL);
+            kill(child, SIGKILL);
+            while (waitpid(child, ended, 0) < 0 && errno == EINTR)
+                continue;
+            if (!late)
+                return statusInterrupted();
+            return statusError(STATUS_POVRAY, "POV-Ray took longer than %.0f s and was stopped",
+                               timeoutSeconds);
+        }
+        nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL);
+    }
+}
+
+/* What POV-Ray said about its failure: the lines from the first that names an error, or the last ones. */
+static void quoteLog(const char *path, char quote[600])
+{
+    char *log = NULL;
+    size_t length = 0;
+    quote[0] = '\0';
+    Status status = readWholeFile(path, 16 << 20, &log, &length);
+    if (!statusIsOk(&status))
+        return;
+    const char *from = strstr(log, " Error:");
+    while (from != NULL && from > log && from[-1] != '\n')
+        from--;
+    if (from == NULL)
+        from = length > 400 ? log + length - 400 : log;
+    size_t kept = 0;
+    for (; *from != '\0' && kept < 598; from++) {
+        /* Printable characters only, and no empty lines. */
+        char c = *from == '\n' || (*from >= ' ' && *from <= '~') ? *from : ' ';
+        if (c == '\n' && (kept == 0 || quote[kept - 1] == '\n'))
+            continue;
+        quote[kept++] = c;
+    }
+    while (kept > 0 && (quote[kept - 1] == '\n' || quote[kept - 1] == ' '))
+        kept--;
+    quote[kept] = '\0';
+    free(log);
+}
+
+/* Run it in the folder, which holds scene.pov and empty.ini; the picture is picture.png there. */
+static Status runIn(const char *folder, const PovraySettings *settings)
+{
+    char *program = searchPath("povray");
+    if (program == NULL)
+        return findPovray();
+
+    char size[2][24], format[8], threads[16];
+    snprintf(size[0], sizeof size[0], "+W%d", settings->width);
+    snprintf(size[1], sizeof size[1], "+H%d", settings->height);
+    snprintf(format, sizeof format, "+FN%d", settings->bitDepth == 16 ? 16 : 8);
+    snprintf(threads, sizeof threads, "+WT%d", settings->threads > 0 ? settings->threads : 1);
+    char *gamma = settings->encoding == ENCODING_LINEAR ? "File_Gamma=1.0" : "File_Gamma=srgb";
+    char *arguments[] = {"povray", "+Iscene.pov", "+Opicture.png", size[0], size[1], format, gamma, "-A",
+                         "-D",     "-P",          threads,         NULL};
+    Text path = {0}, home = {0}, ini = {0}, log = {0};
+    const char *searched = getenv("PATH");
+    textAppendFormat(&path, "PATH=%s", searched != NULL ? searched : "/usr/local/bin:/usr/bin:/bin");
+    textAppendFormat(&home, "HOME=%s", folder);
+    textAppendFormat(&ini, "POVINI=%s/empty.ini", folder);
+    textAppendFormat(&log, "%s/log", folder);
+    Status status = statusOutOfMemory();
+    if (!path.failed && !home.failed && !ini.failed && !log.failed) {
+        char *environment[] = {path.data, home.data, ini.data, "LC_ALL=C", NULL};
+        pid_t child = startIn(folder, program, arguments, environment);
+        int ended = 0;
+        status = child != 0 ? waitFor(child, settings->timeoutSeconds, &ended)
+                            : statusError(STATUS_POVRAY, "cannot start POV-Ray: %s", strerror(errno));
+        if (statusIsOk(&status) && !(WIFEXITED(ended) && WEXITSTATUS(ended) == 0)) {
+            char quote[600];
+            quoteLog(log.data, quote);
+            const char *how = WIFSIGNALED(ended) ? "was ended by signal" : "failed with exit code";
+            int number = WIFSIGNALED(ended) ? WTERMSIG(ended) : WEXITSTATUS(ended);
+            status = statusError(STATUS_POVRAY, "POV-Ray %s %d%s%s", how, number,
+                                 quote[0] != '\0' ? ":\n" : "", quote);
+        }
+    }
+    textFree(&path);
+    textFree(&home);
+    textFree(&ini);
+    textFree(&log);
+    free(program);
+    return status;
+}
+
+Status runPovray(const char *pov, const PovraySettings *settings, Image *image)
+{
+    Status status = findPovray();
+    if (!statusIsOk(&status))
+        return status;
+    char *folder = NULL;
+    status = makeTemporaryFolder(&folder);
+    if (!statusIsOk(&status))
+        return status;
+
+    /* Write the scene and the empty configuration, run, read the picture. */
+    Text scene = {0}, ini = {0}, picture = {0};
+    textAppendFormat(&scene, "%s/scene.pov", folder);
+    textAppendFormat(&ini, "%s/empty.ini", folder);
+    textAppendFormat(&picture, "%s/picture.png", folder);
+    if (scene.failed || ini.failed || picture.failed)
+        status = statusOutOfMemory();
+    if (statusIsOk(&status))
+        status = writeWholeFile(scene.data, pov, strlen(pov));
+    if (statusIsOk(&status))
+        status = writeWholeFile(ini.data, "", 0);
+    if (statusIsOk(&status))
+        status = runIn(folder, settings);
+    if (statusIsOk(&status)) {
+        status = readPng(picture.data, image);
+        if (status.code == STATUS_IO && access(picture.data, R_OK) != 0)
+            status = statusError(STATUS_POVRAY, "POV-Ray wrote no picture");
+    }
+    textFree(&scene);
+    textFree(&ini);
+    textFree(&picture);
+    removeFolder(folder);
+    free(folder);
+    return status;
+}
