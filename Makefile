@@ -1,63 +1,230 @@
-# Éclairage. `make help` lists the targets.
+# Éclairage: builds, tests and installs everything. `make help` lists the targets.
+#
+# `make` alone only compiles. `make demo` and `make test` first install what is missing; the compiler and
+# pkg-config may be among it, so nothing below runs either of them until something is really compiled.
+# Everything made lies under $(BUILD).
 
 VERSION := 0.1.0
-CC ?= cc
-BUILD ?= build
+
+# A sanitized build has a folder of its own, so that neither build undoes the other.
+## BUILD=build: the build folder
+BUILD ?= build$(if $(SANITIZE),/$(subst $(comma),-,$(SANITIZE)))
+comma := ,
+
+## SANITIZE=address,undefined: build, or test, with these sanitizers, in a build folder of its own
 SANITIZE ?=
+# Off by default, so that a newer compiler with a new warning still builds the program.
+## WERROR=1: make warnings errors, as `make test` does
+WERROR ?=
+## CC=clang: the compiler; CPPFLAGS, CFLAGS and LDFLAGS are added to the flags
+## V=1: show the commands
 V ?= 0
 Q := $(if $(filter 1,$(V)),,@)
+say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' '$(1)' '$(2)')
 
-# Packages, found by pkg-config; a missing one is named in one line.
-PACKAGES := yaml-0.1 libpng
-DEBIAN_yaml-0.1 := libyaml-dev
-DEBIAN_libpng := libpng-dev
-DEBIAN_cmocka := libcmocka-dev
+# ---------------------------------------------------------------------------------------------------------
+# Flags, each with its reason
+# ---------------------------------------------------------------------------------------------------------
 
-# -ffp-contract=off: same arithmetic on every machine; a fused multiply-add would change last bits.
-# -fno-math-errno, -fno-trapping-math: nothing here reads errno or the FP flags after arithmetic.
+# -O2: the level both compilers test most. No -march: the program runs on every machine of its architecture.
 OPTIMIZE ?= -O2
-WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Wstrict-prototypes -Wmissing-prototypes -Werror
-ALL_CFLAGS = -std=c17 $(OPTIMIZE) -g -ffp-contract=off -fno-math-errno -fno-trapping-math $(WARNINGS) \
-	-D_POSIX_C_SOURCE=200809L -DECLAIRAGE_VERSION='"$(VERSION)"' -Isrc -I. $(shell pkg-config --cflags $(PACKAGES)) \
-	-pthread $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer) $(CFLAGS)
-ALL_LIBS = $(shell pkg-config --libs $(PACKAGES)) -lm -pthread $(LDFLAGS)
+
+# -ffp-contract=off: a multiply and an add are never fused, so every machine computes the same last bits.
+# -fno-math-errno, -fno-trapping-math: nothing here reads errno or the floating-point flags after arithmetic,
+#   so sqrt is one instruction. Neither changes a result. (-ffast-math would, and is never used.)
+ARITHMETIC := -ffp-contract=off -fno-math-errno -fno-trapping-math
+
+# -Wshadow, -Wconversion: in numeric code a hidden variable or a silent narrowing is a wrong picture.
+# -Wpedantic: ISO C only, so that both compilers agree.
+# -Wno-psabi: gcc's remark that old versions passed wide vectors otherwise; ours never leave one file.
+# -Wstrict-prototypes, -Wmissing-prototypes: every public function is declared in a header.
+WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi \
+	$(if $(WERROR),-Werror)
+
+# -fno-sanitize-recover: the first finding ends the program, so that no test passes over one.
+# -fno-omit-frame-pointer: whole stack traces in the reports.
+SANITIZERS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
+
+# _POSIX_C_SOURCE: -std=c17 hides everything outside ISO C; POSIX threads, files and processes are needed.
+# -g: line numbers in a debugger and in sanitizer reports; costs no speed.
+ALL_CFLAGS = -std=c17 $(OPTIMIZE) -g $(ARITHMETIC) $(WARNINGS) $(SANITIZERS) \
+	-D_POSIX_C_SOURCE=200809L -DECLAIRAGE_VERSION='"$(VERSION)"' -Isrc -I. \
+	$(PACKAGE_CFLAGS) -pthread $(CPPFLAGS) $(CFLAGS)
+COMPILE = $(REQUIRE_BUILD_TOOLS)$(CC) $(ALL_CFLAGS)
+LIBRARIES = $(PACKAGE_LIBS) -lm -pthread
+
+# Each of these variables computes itself when it is first used and then keeps its value: one run of
+# pkg-config for a whole build, none for `make help`.
+PACKAGES := yaml-0.1 libpng
+PACKAGE_CFLAGS = $(eval PACKAGE_CFLAGS := $$(shell pkg-config --cflags $(PACKAGES)))$(PACKAGE_CFLAGS)
+PACKAGE_LIBS = $(eval PACKAGE_LIBS := $$(shell pkg-config --libs $(PACKAGES)))$(PACKAGE_LIBS)
+# These expand to nothing, or end make with one line that names what is missing and how to install it.
+REQUIRE_BUILD_TOOLS = $(call require,build)$(eval REQUIRE_BUILD_TOOLS :=)
+REQUIRE_UNIT_TOOLS = $(call require,unit)$(eval REQUIRE_UNIT_TOOLS :=)
+require = $(eval MISSING := $$(shell CC='$(CC)' tools/install-dependencies.sh --missing $(1)))$(if \
+	$(MISSING),$(error $(MISSING)))
+
+# ---------------------------------------------------------------------------------------------------------
+# Files
+# ---------------------------------------------------------------------------------------------------------
 
 LIBRARY_SOURCES := $(filter-out src/main.c,$(wildcard src/*.c)) \
 	$(wildcard src/base/*.c src/image/*.c src/scene/*.c src/shapes/*.c povray/*.c compare/*.c)
 PROGRAM_SOURCES := src/main.c $(wildcard src/cli/*.c)
-LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/obj/%.o)
-PROGRAM_OBJECTS := $(PROGRAM_SOURCES:%.c=$(BUILD)/obj/%.o)
-UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/test_*.c))
+# The headers a user of the library may include; those of the command line stay with it.
+PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/image/*.h src/scene/*.h src/shapes/*.h \
+	povray/*.h compare/*.h)
+# Files in tests/unit that are not test programs are helpers, linked into each of them.
+UNIT_SOURCES := $(wildcard tests/unit/test_*.c)
+UNIT_HELPERS := $(filter-out $(UNIT_SOURCES),$(wildcard tests/unit/*.c))
 
-## all: build the program and the library (the default)
+objects = $(1:%.c=$(BUILD)/obj/%.o)
+LIBRARY_OBJECTS := $(call objects,$(LIBRARY_SOURCES))
+PROGRAM_OBJECTS := $(call objects,$(PROGRAM_SOURCES))
+UNIT_OBJECTS := $(call objects,$(UNIT_HELPERS))
+UNIT_TESTS := $(UNIT_SOURCES:tests/unit/%.c=$(BUILD)/tests/%)
+
+# ---------------------------------------------------------------------------------------------------------
+# Building
+# ---------------------------------------------------------------------------------------------------------
+
+## all: build the program and the library, optimised (the default)
 all: $(BUILD)/eclairage $(BUILD)/libeclairage.a
 
 $(BUILD)/eclairage: $(PROGRAM_OBJECTS) $(BUILD)/libeclairage.a
-	$(Q)$(CC) $(ALL_CFLAGS) -o $@ $(PROGRAM_OBJECTS) $(BUILD)/libeclairage.a $(ALL_LIBS)
+	$(call say,LINK,$@)
+	$(Q)$(COMPILE) $(LDFLAGS) -o $@ $(PROGRAM_OBJECTS) $(BUILD)/libeclairage.a $(LIBRARIES)
 
-$(BUILD)/libeclairage.a: $(LIBRARY_OBJECTS)
-	$(Q)rm -f $@ && ar rcs $@ $^
+$(BUILD)/libeclairage.a: $(LIBRARY_OBJECTS) $(BUILD)/library-files
+	$(call say,AR,$@)
+	$(Q)rm -f $@ && $(AR) rcs $@ $(LIBRARY_OBJECTS)
 
-$(BUILD)/obj/%.o: %.c Makefile
+$(BUILD)/obj/%.o: %.c $(BUILD)/flags
+	$(call say,CC,$<)
 	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(COMPILE) -MMD -MP -c -o $@ $<
 
-$(BUILD)/tests/%: tests/unit/%.c $(BUILD)/libeclairage.a
+# The report's page is assembled into this object, which the compiler's list of dependencies does not say.
+$(BUILD)/obj/compare/report_template.o: $(wildcard compare/report.html compare/report.css compare/report.js)
+
+$(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
+	$(call say,TEST,$@)
 	$(Q)mkdir -p $(@D)
-	$(Q)$(CC) $(ALL_CFLAGS) -MMD -MP -MF $@.d -o $@ $< $(BUILD)/libeclairage.a -lcmocka $(ALL_LIBS)
+	$(Q)$(REQUIRE_UNIT_TOOLS)$(COMPILE) $(LDFLAGS) -MMD -MP -MF $@.d -o $@ $< $(UNIT_OBJECTS) \
+		$(BUILD)/libeclairage.a -lcmocka $(LIBRARIES)
 
-## unit: build the unit tests
+# A stamp changes only when its text does: other flags or another compiler rebuild everything, a removed
+# source leaves the library, and otherwise nothing happens.
+quote = '$(subst ','\'',$(1))'
+stamp = $(Q)mkdir -p $(@D); printf '%s\n' $(call quote,$(1)) | cmp -s - $@ || printf '%s\n' $(call quote,$(1)) >$@
+$(BUILD)/flags: FORCE
+	$(call stamp,$(COMPILE))
+$(BUILD)/library-files: FORCE
+	$(call stamp,$(LIBRARY_OBJECTS))
+FORCE:
+
+-include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(UNIT_OBJECTS:.o=.d) $(UNIT_TESTS:=.d)
+
+# ---------------------------------------------------------------------------------------------------------
+# Seeing it work, and testing it
+# ---------------------------------------------------------------------------------------------------------
+
+# Inside a recipe: build on all processors, unless the caller of make already said how many.
+PARALLEL = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 2))
+
+## demo: install what is missing, build, render every scene and compare it with POV-Ray
+demo:
+	@CC='$(CC)' tools/install-dependencies.sh build demo
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	@status=0; \
+	$(BUILD)/eclairage compare scenes/course/*.yaml scenes/gallery/*.yaml --out $(BUILD)/report || status=$$?; \
+	if [ -f $(BUILD)/report/index.html ]; then printf '\nThe report: %s\n' $(BUILD)/report/index.html; fi; \
+	exit $$status
+
+## test: install what is missing and run all tests; SUITES='unit cli' runs only those
+test:
+	@CC='$(CC)' tools/install-dependencies.sh build demo unit test
+	@MAKE='$(MAKE)' CC='$(CC)' BUILD='$(BUILD)' SANITIZE='$(SANITIZE)' VERSION='$(VERSION)' tools/run-tests.sh
+
+## unit: build the unit tests; `CMOCKA_MESSAGE_OUTPUT=TAP build/tests/test_NAME` runs one
 unit: $(UNIT_TESTS)
 
-## help: list the targets
-help:
-	@sed -n 's/^## //p' $(MAKEFILE_LIST)
+## setup: install everything the tests can use, the browser's among it
+setup:
+	@CC='$(CC)' tools/install-dependencies.sh build demo unit test browser
+
+## lint: check the layout of the code, who includes whom, and the shell scripts
+lint:
+	@tools/check-format.sh
+	@tools/check-includes.sh
+	@if command -v shellcheck >/dev/null; then shellcheck tools/*.sh .ci/run $(wildcard tests/suites/*.sh); \
+	else echo 'shellcheck is not installed: the shell scripts were not checked.'; fi
+
+## format: lay out all C files with clang-format 14
+format:
+	@tools/check-format.sh --fix
+
+## bench: run the benchmarks
+bench: all
+	@set -e; for script in $(wildcard bench/*.sh); do ECLAIRAGE='$(BUILD)/eclairage' "$$script"; done
+
+## update-results: measure again and rewrite the committed numbers
+update-results: all
+	@ECLAIRAGE='$(BUILD)/eclairage' tools/update-results.sh
+
+# ---------------------------------------------------------------------------------------------------------
+# Installing: the GNU directory variables, each overridable
+# ---------------------------------------------------------------------------------------------------------
+
+## PREFIX=/usr/local: where install puts things; DESTDIR=DIR: below DIR instead of /
+PREFIX ?= /usr/local
+DESTDIR ?=
+BINDIR ?= $(PREFIX)/bin
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+DATADIR ?= $(PREFIX)/share
+MANDIR ?= $(DATADIR)/man
+COMPLETIONDIR ?= $(DATADIR)/bash-completion/completions
+INSTALL ?= install
+# In eclairage.pc a folder is written relative to the prefix where it can be, so that the tree can be moved.
+underPrefix = $(1:$(PREFIX)/%=$${prefix}/%)
+
+## install: install program, library, headers, man page and completion under PREFIX=/usr/local
+install: all
+	$(Q)$(INSTALL) -d '$(DESTDIR)$(BINDIR)' '$(DESTDIR)$(LIBDIR)/pkgconfig' '$(DESTDIR)$(MANDIR)/man1' \
+		'$(DESTDIR)$(COMPLETIONDIR)' '$(DESTDIR)$(DATADIR)/eclairage'
+	$(Q)$(INSTALL) -m 755 $(BUILD)/eclairage '$(DESTDIR)$(BINDIR)/eclairage'
+	$(Q)$(INSTALL) -m 644 $(BUILD)/libeclairage.a '$(DESTDIR)$(LIBDIR)/libeclairage.a'
+	$(Q)sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(call underPrefix,$(LIBDIR))|' \
+		-e 's|@INCLUDEDIR@|$(call underPrefix,$(INCLUDEDIR))|' -e 's|@VERSION@|$(VERSION)|' \
+		-e 's|@PACKAGES@|$(PACKAGES)|' eclairage.pc.in \
+		>'$(DESTDIR)$(LIBDIR)/pkgconfig/eclairage.pc'
+	$(Q)chmod 644 '$(DESTDIR)$(LIBDIR)/pkgconfig/eclairage.pc'
+	$(Q)set -e; for header in $(PUBLIC_HEADERS); do \
+		$(INSTALL) -D -m 644 "$$header" '$(DESTDIR)$(INCLUDEDIR)'/eclairage/"$${header#src/}"; done
+	$(Q)$(INSTALL) -m 644 man/eclairage.1 '$(DESTDIR)$(MANDIR)/man1/eclairage.1'
+	$(Q)$(INSTALL) -m 644 completions/eclairage.bash '$(DESTDIR)$(COMPLETIONDIR)/eclairage'
+	$(Q)$(INSTALL) -m 644 scenes/scene.schema.json '$(DESTDIR)$(DATADIR)/eclairage/scene.schema.json'
+
+## uninstall: remove what install put under PREFIX
+uninstall:
+	$(Q)rm -f '$(DESTDIR)$(BINDIR)/eclairage' '$(DESTDIR)$(LIBDIR)/libeclairage.a' \
+		'$(DESTDIR)$(LIBDIR)/pkgconfig/eclairage.pc' '$(DESTDIR)$(MANDIR)/man1/eclairage.1' \
+		'$(DESTDIR)$(COMPLETIONDIR)/eclairage'
+	$(Q)rm -rf '$(DESTDIR)$(INCLUDEDIR)/eclairage' '$(DESTDIR)$(DATADIR)/eclairage'
 
 ## clean: remove everything built
 clean:
-	rm -rf build
+	rm -rf build $(BUILD)
 
--include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(UNIT_TESTS:=.d)
+help-columns = awk -F: '{ printf "%-30s", $$1; sub(/^[^:]*:/, ""); print }'
+## help: list the targets
+help:
+	@echo 'Targets:'
+	@sed -n 's/^## \([a-z-]*\): /  \1:/p' $(firstword $(MAKEFILE_LIST)) | $(help-columns)
+	@echo 'Variables:'
+	@sed -n 's/^## \([A-Z][^ ]*\): /  \1:/p' $(firstword $(MAKEFILE_LIST)) | $(help-columns)
 
-.PHONY: all unit help clean
+.DEFAULT_GOAL := all
+.PHONY: all demo test unit setup lint format bench update-results install uninstall clean help FORCE
 .DELETE_ON_ERROR:
