@@ -98,8 +98,8 @@ static Status writeLights(const Scene *scene, Finish finish, double scale, Text 
         double brightest = fmax((double)light->color.r, fmax((double)light->color.g, (double)light->color.b));
         if (falls && brightest * scale * scale * 0x1p39 > (double)FLT_MAX)
             return statusError(STATUS_INEXPRESSIBLE,
-                               "light %zu is too bright for POV-Ray, which keeps colors in single precision; "
-                               "a color below 1e26 can be exported",
+                               "light %zu is too bright for POV-Ray, which keeps colours in single precision; "
+                               "a colour below 1e26 can be exported",
                                i + 1);
         appendColor(pov, light->color, falls ? scale * scale : 1);
         textAppend(pov, falls ? "*K\n  fade_distance D fade_power 2\n}\n\n" : "\n}\n\n");
