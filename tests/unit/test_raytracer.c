@@ -180,6 +180,47 @@ static void blockersCountOnlyBetweenPointAndLight(void **state)
     freeScene(&scene);
 }
 
+static void aLightOnASurfaceIsNotHiddenByIt(void **state)
+{
+    (void)state;
+    /* Seen from a light on the sphere, rounding puts the sphere's surface now before the light and now
+     * behind it; every point that the sphere does not hide must be lit. */
+    Scene scene = createScene();
+    scene.render.model = MODEL_SIMPLE;
+    Vector3D center = createVector(0.1, 0.7, 0.2), outward = normalize(createVector(0.3, -0.9, 0.1));
+    addPlaneToScene(&scene, createPlane(createVector(0, -1, 0), createVector(0, 1, 0), defaultMaterial()));
+    addSphereToScene(&scene, createSphere(center, 0.3, defaultMaterial()));
+    Vector3D light = addVectors(center, multVector(outward, 0.3));
+    addLightToScene(&scene, createLight(light, createColor(1, 1, 1)));
+    size_t lit = 0;
+    for (int i = 0; i < 900; i++) {
+        Vector3D p = createVector(-1 + i % 30 / 15.0, -1, -1 + i / 30 / 15.0);
+        if (dot(outward, subVectors(p, light)) < 0.01)
+            continue;
+        lit++;
+        assertColor(colorAlong(&scene, addVectors(p, createVector(2, 0.5, 0)), p), 0.8, 0.8, 0.8);
+    }
+    assert_true(lit > 500);
+    freeScene(&scene);
+}
+
+static void whatIsVeryNearStillBlocks(void **state)
+{
+    (void)state;
+    /* A sheet a hundred millionth above the ground, just beside the point, on the way to the light. */
+    Scene scene = createScene();
+    scene.render.model = MODEL_SIMPLE;
+    addPlaneToScene(&scene, createPlane(createVector(0, 0, 0), createVector(0, 1, 0), defaultMaterial()));
+    addBoxToScene(&scene,
+                  createBox(createVector(1e-9, 5e-9, -1), createVector(2, 1e-8, 1), defaultMaterial()));
+    addLightToScene(&scene, createLight(createVector(1, 1, 0), createColor(1, 1, 1)));
+    Vector3D origin = createVector(0, 0, 0);
+    assertColor(colorAlong(&scene, createVector(-1, 1, 0), origin), 0, 0, 0);
+    scene.lights[0].position.x = -1;
+    assertColor(colorAlong(&scene, createVector(-1, 1, 0), origin), 0.8, 0.8, 0.8);
+    freeScene(&scene);
+}
+
 static void insideASphere(void **state)
 {
     (void)state;
@@ -385,6 +426,8 @@ int main(void)
         cmocka_unit_test(phongByHand),
         cmocka_unit_test(simpleIsTheDiffuseColourOrBlack),
         cmocka_unit_test(blockersCountOnlyBetweenPointAndLight),
+        cmocka_unit_test(aLightOnASurfaceIsNotHiddenByIt),
+        cmocka_unit_test(whatIsVeryNearStillBlocks),
         cmocka_unit_test(insideASphere),
         cmocka_unit_test(sameBitsAtEveryScaleAndThreadCount),
         cmocka_unit_test(noAcneOnAnyShapeAtAnyScale),

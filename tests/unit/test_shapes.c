@@ -115,6 +115,15 @@ static void boxFaces(void **state)
     assert_true(intersectsBox(createRay(createVector(1, 0, 9), createVector(0, 0, -1)), box, &hit));
     assert_false(intersectsBox(createRay(createVector(1.0000001, 0, 9), createVector(0, 0, -1)), box, &hit));
 
+    /* Through an edge exactly: the face first in the order x, y, z; an edge that is only touched is met. */
+    Box unit = createBox(createVector(-1, -1, -1), createVector(1, 1, 1), red);
+    Vector3D slant = createVector(-sqrt(0.5), -sqrt(0.5), 0);
+    assert_true(intersectsBox(createRay(createVector(3, 3, 0), slant), unit, &hit));
+    assert_true(hit.normal.x == 1 && hit.normal.y == 0);
+    slant.x = sqrt(0.5);
+    assert_true(intersectsBox(createRay(createVector(0, 2, 0), slant), unit, &hit));
+    assert_true(fabs(hit.position.x - 1) < 1e-15 && fabs(hit.position.y - 1) < 1e-15);
+
     Cube cube = createCube(createVector(0, 0, -5), 2, red);
     assertHit(intersectsCube(createRay(createVector(0, 0, 0), createVector(0, 0, -1)), cube, &hit), &hit, 4,
               createVector(0, 0, 1));
