@@ -1,0 +1,91 @@
+/* command.h - the commands of the program, and what the command line asked for.
+ *
+ * COMMANDS (command.c) and OPTIONS (options.c) are the only lists of commands and options: parsing, help,
+ * the manual page and the completion of the shell are all made from them.
+ * A command prints its own messages through terminal.h and returns the program's exit code.
+ */
+#ifndef ECLAIRAGE_CLI_COMMAND_H
+#define ECLAIRAGE_CLI_COMMAND_H
+
+#include "base/tolerance.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* One bit for each command, so that an option can name the commands it belongs to. */
+typedef enum CommandBit {
+    COMMAND_RENDER = 1 << 0,
+    COMMAND_POV = 1 << 1,
+    COMMAND_COMPARE = 1 << 2,
+    COMMAND_DIFF = 1 << 3,
+    COMMAND_CHECK = 1 << 4,
+    COMMAND_SCHEMA = 1 << 5,
+    ALL_COMMANDS = (1 << 6) - 1
+} CommandBit;
+
+/* What the operands of a command are, for the completion of the shell. */
+typedef enum OperandKind {
+    OPERANDS_NONE,
+    OPERANDS_SCENES,
+    OPERANDS_PICTURES
+} OperandKind;
+
+typedef struct Arguments Arguments;
+
+typedef struct Command {
+    CommandBit bit;
+    const char *name;
+    OperandKind operandKind;
+    const char *operands; /* as they stand in the usage line */
+    size_t fewestOperands, mostOperands;
+    const char *summary;     /* one line, for the list of commands */
+    const char *examples;    /* lines of "command<TAB>what it does" */
+    const char *description; /* paragraphs, parted by empty lines; a line is at most 78 characters */
+    int (*run)(const Arguments *arguments);
+} Command;
+
+extern const Command COMMANDS[];
+extern const size_t COMMAND_COUNT;
+
+/* The command of that name, or NULL. */
+const Command *findCommand(const char *name);
+
+typedef enum ColorChoice {
+    COLOR_AUTO,
+    COLOR_ALWAYS,
+    COLOR_NEVER
+} ColorChoice;
+
+/* What an option that was not given leaves in an int that is a choice. */
+enum {
+    NOT_GIVEN = -1
+};
+
+/* The command line, checked. Strings point into argv. */
+struct Arguments {
+    int argc; /* as main got them */
+    char **argv;
+    const Command *command; /* NULL only with help or version */
+    const char **operands;  /* owned */
+    size_t operandCount;
+    bool help, version, json, quiet;
+    int color;            /* a ColorChoice */
+    const char *output;   /* of -o; NULL: not given */
+    const char *folder;   /* of --out; NULL: not given */
+    int width, height;    /* 0: not given */
+    int samples, threads; /* 0: not given */
+    int model;            /* a ShadingModel or NOT_GIVEN */
+    int engine;           /* NOT_GIVEN, or 0: reference */
+    int encoding;         /* an Encoding or NOT_GIVEN */
+    int depthChoice;      /* NOT_GIVEN, 0: 8 bits, 1: 16 bits */
+    Tolerance tolerance;  /* NAN where not given */
+};
+
+int runRender(const Arguments *arguments);
+int runPov(const Arguments *arguments);
+int runCompare(const Arguments *arguments);
+int runDiff(const Arguments *arguments);
+int runCheck(const Arguments *arguments);
+int runSchema(const Arguments *arguments);
+
+#endif

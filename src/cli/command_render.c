@@ -1,0 +1,146 @@
+/* command_render.c - `eclairage render`: from a scene to a PNG. */
+#include "base/json.h"
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/scene_input.h"
+#include "cli/terminal.h"
+#include "image/image.h"
+#include "raytracer.h"
+
+#include <string.h>
+#include <strings.h>
+#include <sys/resource.h>
+
+/* How long each phase took, in seconds. */
+typedef struct Phases {
+    double load, compile, trace, write, total;
+} Phases;
+
+/* SCENE.png beside SCENE.yaml; a name without .yaml or .yml gets .png behind it. */
+static void appendPictureName(const char *scene, Text *name)
+{
+    const char *slash = strrchr(scene, '/');
+    const char *base = slash != NULL ? slash + 1 : scene;
+    const char *dot = strrchr(base, '.');
+    bool isYaml =
+        dot != NULL && dot != base && (strcasecmp(dot, ".yaml") == 0 || strcasecmp(dot, ".yml") == 0);
+    textAppendBytes(name, scene, isYaml ? (size_t)(dot - scene) : strlen(scene));
+    textAppend(name, ".png");
+}
+
+/* The most memory the process has had, in bytes; Linux counts kibibytes. */
+static int64_t peakMemory(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (int64_t)usage.ru_maxrss * 1024 : 0;
+}
+
+static int printJson(const char *path, const Scene *scene, int threads, const Phases *phases,
+                     const RayCounts *rays)
+{
+    Text text = {0};
+    JsonWriter json = jsonBegin(&text);
+    jsonObject(&json);
+    jsonKeyString(&json, "scene", path);
+    jsonKeyInteger(&json, "width", scene->image.width);
+    jsonKeyInteger(&json, "height", scene->image.height);
+    jsonKeyString(&json, "engine", "reference");
+    jsonKeyInteger(&json, "threads", threads);
+    jsonKey(&json, "seconds");
+    jsonInlineObject(&json);
+    jsonKeyNumber(&json, "load", phases->load);
+    jsonKeyNumber(&json, "compile", phases->compile);
+    jsonKeyNumber(&json, "trace", phases->trace);
+    jsonKeyNumber(&json, "write", phases->write);
+    jsonKeyNumber(&json, "total", phases->total);
+    jsonEndObject(&json);
+    jsonKey(&json, "rays");
+    jsonInlineObject(&json);
+    jsonKeyInteger(&json, "primary", (int64_t)rays->primary);
+    jsonKeyInteger(&json, "shadow", (int64_t)rays->shadow);
+    jsonKeyInteger(&json, "secondary", (int64_t)rays->secondary);
+    jsonEndObject(&json);
+    jsonKeyInteger(&json, "peak_memory_bytes", peakMemory());
+    jsonEndObject(&json);
+    jsonEnd(&json);
+    return printData(&text);
+}
+
+/* Draw, store and write; the phases' times and the rays are measured. */
+static Status renderToFile(const Scene *scene, const char *path, int threads, const char *output,
+                           Phases *phases, RayCounts *rays)
+{
+    /* Make the canvas ready. */
+    double start = secondsNow();
+    Framebuffer *framebuffer = createFramebuffer(scene->image.width, scene->image.height);
+    if (framebuffer == NULL)
+        return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
+                           scene->image.height);
+    double compiled = secondsNow();
+    phases->compile = compiled - start;
+
+    /* Trace the rays. */
+    beginProgress("rendering");
+    RenderOptions options = {.threads = threads, .progress = showProgress};
+    Status status = renderReference(scene, framebuffer, &options, rays);
+    endProgress();
+    double traced = secondsNow();
+    phases->trace = traced - compiled;
+
+    /* Write the picture. */
+    Image image;
+    if (statusIsOk(&status)) {
+        Text messages = {0};
+        warnOfNonFinitePixels(framebuffer, path, &messages);
+        printMessages(&messages);
+        status = imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding, &image);
+    }
+    freeFramebuffer(framebuffer);
+    if (statusIsOk(&status)) {
+        status = writePng(output, &image);
+        freeImage(&image);
+    }
+    phases->write = secondsNow() - traced;
+    return status;
+}
+
+int runRender(const Arguments *arguments)
+{
+    double start = secondsNow();
+    const char *path = arguments->operands[0];
+    Status status = refuseOverwriting(arguments->output, path);
+    if (!statusIsOk(&status))
+        return printError(NULL, &status);
+
+    Scene scene;
+    Text messages = {0};
+    status = openScene(path, arguments, &scene, &messages);
+    printMessages(&messages);
+    if (!statusIsOk(&status))
+        return (int)status.code;
+
+    Phases phases = {.load = secondsNow() - start};
+    RayCounts rays = {0};
+    int threads = chosenThreads(arguments);
+    Text defaultName = {0};
+    if (arguments->output == NULL)
+        appendPictureName(path, &defaultName);
+    const char *output = arguments->output != NULL ? arguments->output : textString(&defaultName);
+    status = defaultName.failed ? statusOutOfMemory()
+                                : renderToFile(&scene, path, threads, output, &phases, &rays);
+    phases.total = secondsNow() - start;
+
+    int code = (int)status.code;
+    if (!statusIsOk(&status)) {
+        printError(displayName(path), &status);
+    } else {
+        if (strcmp(output, "-") != 0)
+            printNote("wrote %s (%d x %d, %.2f s)", output, scene.image.width, scene.image.height,
+                      phases.total);
+        if (arguments->json)
+            code = printJson(path, &scene, threads, &phases, &rays);
+    }
+    textFree(&defaultName);
+    freeScene(&scene);
+    return code;
+}

@@ -1,0 +1,32 @@
+/* scene_input.h - the scene that a command works on: the file, changed by the options. */
+#ifndef ECLAIRAGE_CLI_SCENE_INPUT_H
+#define ECLAIRAGE_CLI_SCENE_INPUT_H
+
+#include "base/status.h"
+#include "base/text.h"
+#include "cli/command.h"
+#include "colors.h"
+#include "raytracer.h"
+
+#include <stdbool.h>
+
+/* Load the scene at path and let the options override it. What there is to say, the failure included, is
+ * appended to messages. On success the caller frees the scene with freeScene. */
+Status openScene(const char *path, const Arguments *arguments, Scene *scene, Text *messages);
+
+/* Let the limits that were given, those that are not NAN, take the place of others. */
+void overrideTolerance(const Tolerance *given, Tolerance *tolerance);
+
+/* The threads to draw on. */
+int chosenThreads(const Arguments *arguments);
+
+/* Whether both name the same existing file. */
+bool isSameFile(const char *a, const char *b);
+
+/* STATUS_USAGE when writing to output would destroy input. output may be NULL. */
+Status refuseOverwriting(const char *output, const char *input);
+
+/* Append a warning when the picture has pixels that a file cannot hold. */
+void warnOfNonFinitePixels(const Framebuffer *framebuffer, const char *path, Text *messages);
+
+#endif
