@@ -1,0 +1,328 @@
+/* Export and runner: what the .pov says and refuses to say, and a run that nothing outside can change
+ * and that leaves nothing behind. Runs of the real POV-Ray are skipped where there is none. */
+#include "base/files.h"
+#include "povray/export.h"
+#include "povray/pov_scale.h"
+#include "povray/run.h"
+
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static const PovraySettings small = {.width = 64,
+                                     .height = 48,
+                                     .bitDepth = 16,
+                                     .encoding = ENCODING_LINEAR,
+                                     .threads = 1,
+                                     .timeoutSeconds = 60};
+
+static Scene shinySphere(void)
+{
+    Scene scene = createScene();
+    scene.image.width = 64;
+    scene.image.height = 48;
+    Material material = createMaterial(createColor(0.7f, 0.1f, 0), createColor(0.9f, 0, 0.3f), 20);
+    addSphereToScene(&scene, createSphere(createVector(0.1, 0, -5), 1.5, material));
+    addLightToScene(&scene, createLight(createVector(-3, 2, 1), createColor(15, 12, 10)));
+    return scene;
+}
+
+static char *exported(const Scene *scene, const char *name)
+{
+    Text pov = {0};
+    Status status = exportPov(scene, name, &pov);
+    assert_int_equal(status.code, STATUS_OK);
+    return pov.data;
+}
+
+static void numbersAreWrittenInFull(void **state)
+{
+    (void)state;
+    Scene scene = shinySphere();
+    scene.objects[0].sphere.center.x = 0.1 + 0.2;
+    scene.background = createColor(1.0f / 3, 0, 0);
+    char *pov = exported(&scene, "a.pov");
+    assert_non_null(strstr(pov, "sphere { <0.30000000000000004, 0, -5>, 1.5"));
+    assert_non_null(strstr(pov, "background { rgb <0.3333333432674408, 0, 0> }"));
+    assert_non_null(strstr(pov, "rgb <15, 12, 10>*K"));
+    free(pov);
+    freeScene(&scene);
+}
+
+static void theFirstCommentIsTheCommand(void **state)
+{
+    (void)state;
+    Scene scene = shinySphere();
+    char *pov = exported(&scene, "scenes/04-phong.pov");
+    const char *expected = "// povray +I04-phong.pov +O04-phong.png +W64 +H48 +FN8 File_Gamma=srgb -A -D\n";
+    assert_memory_equal(pov, expected, strlen(expected));
+    free(pov);
+    scene.image.bitDepth = 16;
+    scene.image.encoding = ENCODING_LINEAR;
+    pov = exported(&scene, "x");
+    expected = "// povray +Ix.pov +Ox.png +W64 +H48 +FN16 File_Gamma=1.0 -A -D\n";
+    assert_memory_equal(pov, expected, strlen(expected));
+    free(pov);
+    freeScene(&scene);
+}
+
+static void aNameCannotBecomeCode(void **state)
+{
+    (void)state;
+    Scene scene = shinySphere();
+    const char *names[] = {
+        "x\n#write(F,1)\n.pov", "x\r#error", "*/ sphere{", "$(rm -rf ~).pov", "-Ifoo;reboot",
+        "\xE2\x80\xA8.pov",     ""};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char *pov = exported(&scene, names[i]);
+        char *end = strchr(pov, '\n');
+        assert_memory_equal(end, "\n// Written by", 14);
+        *end = '\0';
+        assert_int_equal(
+            strspn(pov + 2, " +=-_.ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"),
+            strlen(pov + 2));
+        assert_null(strstr(pov, "+I-"));
+        free(pov);
+    }
+    freeScene(&scene);
+}
+
+static void refusesWhatItCannotSay(void **state)
+{
+    (void)state;
+    Scene scene = shinySphere();
+    Text pov = {0};
+    scene.render.shadowBias = 0.001;
+    Status status = exportPov(&scene, "a", &pov);
+    assert_int_equal(status.code, STATUS_INEXPRESSIBLE);
+    assert_non_null(strstr(status.message, "shadow_bias"));
+
+    scene.render.shadowBias = NAN;
+    scene.render.model = MODEL_SIMPLE;
+    addLightToScene(&scene, createLight(createVector(0, 5, 0), createColor(1, 1, 1)));
+    status = exportPov(&scene, "a", &pov);
+    assert_int_equal(status.code, STATUS_INEXPRESSIBLE);
+    scene.render.shadows = false;
+    status = exportPov(&scene, "a", &pov);
+    assert_int_equal(status.code, STATUS_OK);
+
+    scene.render.model = MODEL_PHONG;
+    scene.lights[1].color.g = 1e30f;
+    status = exportPov(&scene, "a", &pov);
+    assert_int_equal(status.code, STATUS_INEXPRESSIBLE);
+    assert_non_null(strstr(status.message, "light 2"));
+    textFree(&pov);
+    freeScene(&scene);
+}
+
+static void sizesThatPovraySeesWell(void **state)
+{
+    (void)state;
+    Scene scene = shinySphere();
+    assert_true(povScale(&scene) == 1);
+    /* A small part makes the scene larger, by a power of two; a huge one limits that. */
+    addSphereToScene(&scene, createSphere(createVector(0, 0, -4), 0.001, defaultMaterial()));
+    double scale = povScale(&scene);
+    assert_true(scale * 0.002 >= 1 && scale * 0.002 < 2);
+    assert_true(log2(scale) == floor(log2(scale)));
+    addSphereToScene(&scene, createSphere(createVector(0, -1e6, 0), 1e6, defaultMaterial()));
+    assert_true(povScale(&scene) * 2e6 <= 0x1p22);
+    freeScene(&scene);
+    Scene empty = createScene();
+    assert_true(povScale(&empty) == 1);
+}
+
+/* What is left in a folder but . and .. */
+static int entriesIn(const char *path)
+{
+    DIR *folder = opendir(path);
+    assert_non_null(folder);
+    int count = -2;
+    while (readdir(folder) != NULL)
+        count++;
+    closedir(folder);
+    return count;
+}
+
+/* Private TMPDIR and current folder with a hostile povray.ini; its path, for assertNothingLeft. */
+static char *hostileSurroundings(void)
+{
+    char *folder = NULL;
+    Status status = makeTemporaryFolder(&folder);
+    assert_true(statusIsOk(&status));
+    setenv("TMPDIR", folder, 1);
+    return folder;
+}
+
+static void assertNothingLeft(char *folder, int expected)
+{
+    assert_int_equal(entriesIn(folder), expected);
+    unsetenv("TMPDIR");
+    removeFolder(folder);
+    free(folder);
+}
+
+/* A program of our own called povray, first on the PATH. */
+static char *fakePovray(const char *script)
+{
+    char *folder = NULL;
+    Status status = makeTemporaryFolder(&folder);
+    assert_true(statusIsOk(&status));
+    char path[512];
+    snprintf(path, sizeof path, "%s/povray", folder);
+    status = writeWholeFile(path, script, strlen(script));
+    assert_true(statusIsOk(&status));
+    assert_int_equal(chmod(path, 0755), 0);
+    setenv("PATH", folder, 1);
+    return folder;
+}
+
+static void missingPovraySaysHowToInstallIt(void **state)
+{
+    (void)state;
+    char *path = strdup(getenv("PATH"));
+    setenv("PATH", "/nonexistent", 1);
+    Image image;
+    Status status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "apt-get install povray"));
+    setenv("PATH", path, 1);
+    free(path);
+}
+
+static void failureAndTimeoutAreTold(void **state)
+{
+    (void)state;
+    char *path = strdup(getenv("PATH"));
+    char *surroundings = hostileSurroundings();
+    char *fake =
+        fakePovray("#!/bin/sh\necho banner\necho \"File 'scene.pov' line 3: Parse Error: $HOME no.\" >&2\n"
+                   "exit 3\n");
+    Image image;
+    Status status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "exit code 3"));
+    assert_non_null(strstr(status.message, "line 3: Parse Error"));
+    assert_null(strstr(status.message, "banner"));
+    removeFolder(fake);
+    free(fake);
+
+    fake = fakePovray("#!/bin/sh\nkill -SEGV $$\n");
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "signal 11"));
+    removeFolder(fake);
+    free(fake);
+
+    fake = fakePovray("#!/bin/sh\nexit 0\n");
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "no picture"));
+    removeFolder(fake);
+    free(fake);
+
+    /* The program and what it started are ended. */
+    fake = fakePovray("#!/bin/sh\n/bin/sleep 60 & wait\n");
+    PovraySettings hasty = small;
+    hasty.timeoutSeconds = 0.2;
+    status = runPovray("", &hasty, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "longer than"));
+    removeFolder(fake);
+    free(fake);
+    setenv("PATH", path, 1);
+    free(path);
+    assertNothingLeft(surroundings, 0);
+}
+
+static void skipWithoutPovray(void)
+{
+    Status status = findPovray();
+    if (!statusIsOk(&status)) {
+        print_message("skipped: %s\n", status.message);
+        skip();
+    }
+}
+
+static void theRealOneDrawsOurPicture(void **state)
+{
+    (void)state;
+    skipWithoutPovray();
+    char *surroundings = hostileSurroundings();
+    char here[4096];
+    assert_non_null(getcwd(here, sizeof here));
+    /* Configurations that would change size, samples and gamma, where POV-Ray looks for them. */
+    assert_int_equal(chdir(surroundings), 0);
+    const char *ini = "Width=10\nHeight=10\nAntialias=On\nFile_Gamma=2.2\nOutput_to_File=off\n";
+    Status status = writeWholeFile("povray.ini", ini, strlen(ini));
+    assert_true(statusIsOk(&status));
+    status = makeFolders(".povray/3.7");
+    assert_true(statusIsOk(&status));
+    status = writeWholeFile(".povray/3.7/povray.ini", ini, strlen(ini));
+    assert_true(statusIsOk(&status));
+    char named[4200];
+    snprintf(named, sizeof named, "%s/povray.ini", surroundings);
+    setenv("POVINI", named, 1);
+    setenv("HOME", surroundings, 1);
+
+    Scene scene = shinySphere();
+    char *pov = exported(&scene, "a");
+    Image theirs, ours;
+    status = runPovray(pov, &small, &theirs);
+    assert_int_equal(chdir(here), 0);
+    assert_int_equal(status.code, STATUS_OK);
+    assert_int_equal(theirs.width, 64);
+    assert_int_equal(theirs.bitDepth, 16);
+    assert_int_equal(theirs.encoding, ENCODING_LINEAR);
+
+    Framebuffer *framebuffer = createFramebuffer(64, 48);
+    RenderOptions options = {.threads = 1};
+    renderReference(&scene, framebuffer, &options, NULL);
+    status = imageFromFramebuffer(framebuffer, 16, ENCODING_LINEAR, &ours);
+    assert_int_equal(status.code, STATUS_OK);
+    assert_memory_equal(ours.samples, theirs.samples, 64 * 48 * 3 * sizeof(uint16_t));
+    unsigned brightest = 0;
+    for (size_t i = 0; i < 64 * 48 * 3; i++)
+        brightest = ours.samples[i] > brightest ? ours.samples[i] : brightest;
+    assert_true(brightest > 20000);
+
+    freeImage(&ours);
+    freeImage(&theirs);
+    freeFramebuffer(framebuffer);
+    free(pov);
+    freeScene(&scene);
+    unsetenv("POVINI");
+    assertNothingLeft(surroundings, 2);
+}
+
+static void theRealOnesErrorIsQuoted(void **state)
+{
+    (void)state;
+    skipWithoutPovray();
+    char *surroundings = hostileSurroundings();
+    Image image;
+    Status status = runPovray("sphere { <0,0,0> 1 nonsense }\n", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "line 1: Parse Error"));
+    assertNothingLeft(surroundings, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbersAreWrittenInFull),  cmocka_unit_test(theFirstCommentIsTheCommand),
+        cmocka_unit_test(aNameCannotBecomeCode),    cmocka_unit_test(refusesWhatItCannotSay),
+        cmocka_unit_test(sizesThatPovraySeesWell),  cmocka_unit_test(missingPovraySaysHowToInstallIt),
+        cmocka_unit_test(failureAndTimeoutAreTold), cmocka_unit_test(theRealOneDrawsOurPicture),
+        cmocka_unit_test(theRealOnesErrorIsQuoted),
+    };
+    return cmocka_run_group_tests_name("povray", tests, NULL, NULL);
+}
