@@ -4,7 +4,8 @@
  * to structural similarity. IEEE Transactions on Image Processing 13(4), 2004: equations 13 to 17.
  * The window is a Gaussian, which is a product of one in x and one in y: rows are filtered, then columns.
  * Invariant: equal windows give exactly 1. With x = y the two factors of the numerator and those of the
- * denominator are the same operations on the same values, up to factors of two, which round nothing.
+ * denominator are the same operations on the same values, up to factors of two, which round nothing. And
+ * no operation tells x from y, so swapping the pictures changes no bit.
  */
 #include "compare/ssim.h"
 
@@ -81,11 +82,10 @@ static void filterRow(const double weights[RADIUS + 1], const double *a, const d
         for (int k = 0; k < WINDOW; k++) {
             double weight = weights[k < RADIUS ? RADIUS - k : k - RADIUS];
             Doubles p = loadDoubles(a + x + k), q = loadDoubles(b + x + k);
-            Doubles weightedP = weight * p, weightedQ = weight * q;
-            sums[0] += weightedP;
-            sums[1] += weightedQ;
-            sums[2] += weightedP * p + weightedQ * q;
-            sums[3] += weightedP * q;
+            sums[0] += weight * p;
+            sums[1] += weight * q;
+            sums[2] += weight * (p * p + q * q);
+            sums[3] += weight * (p * q);
         }
         for (int m = 0; m < MOMENTS; m++)
             storeDoubles(moments[m] + x, sums[m]);
