@@ -109,10 +109,7 @@ static bool waitUntilReady(int descriptor, short events)
  * sets errno on failure. */
 static int openWithoutWaiting(const char *path, int flags)
 {
-    int descriptor = open(path, flags | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (descriptor >= 0)
-        fcntl(descriptor, F_SETFL, flags);
-    return descriptor;
+    return open(path, flags | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------- */
@@ -151,12 +148,10 @@ static Status tooLarge(const char *path, size_t maxLength)
 /* Read to the end of the descriptor. On failure buffer->data is still the caller's to free. */
 static Status readDescriptor(int descriptor, const char *path, size_t maxLength, Buffer *buffer)
 {
-    /* Refuse what is no file, and what is known to be too large, before reading it. */
+    /* Refuse what is known to be too large before reading it. (A folder fails at the first read.) */
     struct stat info;
     if (fstat(descriptor, &info) != 0)
         return readError(path, errno);
-    if (S_ISDIR(info.st_mode))
-        return readError(path, EISDIR);
     bool regular = S_ISREG(info.st_mode);
     if (regular && (uintmax_t)info.st_size > maxLength)
         return tooLarge(path, maxLength);

@@ -134,6 +134,9 @@ static void refusesToRead(void **state)
     assertFails(readWholeFile(".", 10, &data, &length), STATUS_IO, "'.'", "folder");
     assertFails(readWholeFile("file/x", 10, &data, &length), STATUS_IO, "'file/x'", "not a folder");
     assertFails(readWholeFile("/dev/zero", 100000, &data, &length), STATUS_IO, "/dev/zero", "larger");
+    /* A file of 1 TB, all holes, is refused unread. */
+    assert_int_equal(truncate("file", (off_t)1 << 40), 0);
+    assertFails(readWholeFile("file", 10, &data, &length), STATUS_IO, "'file'", "larger");
     assert_null(data);
     assert_int_equal(length, 77);
 }
@@ -161,6 +164,17 @@ static void readsPipes(void **state)
     assertHolds(path, "one two");
     pthread_join(thread, NULL);
 
+    /* A pipe's length is not known before: the limit holds all the same. */
+    char *data = NULL;
+    size_t length = 0;
+    assert_int_equal(pthread_create(&thread, NULL, feedPipe, path), 0);
+    assertFails(readWholeFile(path, 6, &data, &length), STATUS_IO, "'pipe'", "larger");
+    pthread_join(thread, NULL);
+    assert_int_equal(pthread_create(&thread, NULL, feedPipe, path), 0);
+    assertOk(readWholeFile(path, 7, &data, &length));
+    pthread_join(thread, NULL);
+    free(data);
+
     /* Standard input. */
     int ends[2];
     assert_int_equal(pipe(ends), 0);
@@ -171,8 +185,6 @@ static void readsPipes(void **state)
     close(ends[0]);
     assertHolds("-", "typed");
     close(STDIN_FILENO);
-    char *data;
-    size_t length;
     assertFails(readWholeFile("-", 10, &data, &length), STATUS_IO, "standard input", "closed");
     if (saved >= 0) {
         dup2(saved, STDIN_FILENO);
@@ -292,7 +304,9 @@ static void refusesToWrite(void **state)
     memset(name, 'n', sizeof name - 1);
     name[sizeof name - 1] = '\0';
     assertFails(writeText(name, "x"), STATUS_IO, "nnn", "too long");
+    /* Opening already says so, before the work of writing. */
     OutputFile output;
+    assertFails(openOutput(&output, "d"), STATUS_IO, "'d'", "folder");
     assertFails(openOutput(&output, "file/x"), STATUS_IO, "'file/x'", "not a folder");
     abandonOutput(&output); /* harmless */
     assertHolds("file", "kept");
@@ -307,21 +321,29 @@ static void refusesToWrite(void **state)
     }
 }
 
+/* Write to a device. It must be written itself: where a temporary file was made to replace it, stop, or
+ * root would lose the device. */
+static Status writeSpecial(const char *path, const char *text)
+{
+    OutputFile output;
+    Status status = openOutput(&output, path);
+    assertOk(status);
+    if (output.temporaryPath != NULL) {
+        abandonOutput(&output);
+        fail_msg("'%s' would be replaced", path);
+    }
+    fputs(text, output.stream);
+    return closeOutput(&output);
+}
+
 static void keepsTheOldFileWhenTheDiskIsFull(void **state)
 {
     (void)state;
-    assertFails(writeText("/dev/full", "x"), STATUS_IO, "'/dev/full'", "no space");
-    assertOk(writeText("/dev/full", ""));
-    assertOk(writeText("/dev/null", "x"));
+    assertFails(writeSpecial("/dev/full", "x"), STATUS_IO, "'/dev/full'", "no space");
+    assertOk(writeSpecial("/dev/full", ""));
+    assertOk(writeSpecial("/dev/null", "x"));
     assert_int_equal(symlink("/dev/full", "link"), 0);
-    OutputFile output;
-    assertOk(openOutput(&output, "link"));
-    assert_null(output.temporaryPath);
-    fputs("x", output.stream);
-    assertFails(closeOutput(&output), STATUS_IO, "'link'", "no space");
-    struct stat info;
-    assert_int_equal(stat("/dev/full", &info), 0);
-    assert_true(S_ISCHR(info.st_mode));
+    assertFails(writeSpecial("link", "x"), STATUS_IO, "'link'", "no space");
 
     /* A regular file that cannot grow: the limit on file sizes, for which root is no exception. */
     assertOk(writeText("f", "old"));
