@@ -34,6 +34,13 @@ png.h:      image
 # Code outside these folders (tests, bench, notes) may include anything.
 outside='build tests bench notes tools man completions scenes'
 
+# Newcomers must read the same table.
+copy=$(awk '/^    base:/, /^    main:/ { sub(/^    /, ""); print }' CONTRIBUTING.md)
+if [ "$(echo "$table" | sed '/^$/d')" != "$copy" ]; then
+    echo "CONTRIBUTING.md: its table of who may include whom is not the one in tools/check-includes.sh."
+    exit 1
+fi
+
 # Collect every C file in the folders that are the program.
 prune=
 for folder in $outside; do

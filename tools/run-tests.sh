@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Runs the test suites and ends in one line over all of them:  N passed, M failed[, K skipped]
 #
-# Every test program speaks TAP; tools/read-tap.awk says what counts as a failure. A report of a sanitizer is one
+# Every test program speaks TAP; tools/read-tap.awk says what counts as a failure. A sanitizer's report is one
 # too. What could not run says why and counts as skipped, never as passed.
 #
 #   tools/run-tests.sh                          everything; the exit status is 0 only if nothing failed
 #   SUITES='unit cli' tools/run-tests.sh        only those suites (their names are at the end of this file)
-#   SANITIZE=address,undefined tools/run-tests.sh     unit, cli and shell, with that build as the program
+#   SANITIZE=address,undefined tools/run-tests.sh    unit and cli, with a build under those sanitizers
 #
 # From make come MAKE, CC, BUILD and SANITIZE. Tests get ECLAIRAGE (the program's absolute path), BUILD,
 # CC and MAKE, and ECLAIRAGE_SANITIZED=1 where the program is slower and hungrier than a user's.
@@ -159,8 +159,8 @@ sanitizedFolder=$BUILD
 [ -n "$SANITIZE" ] || sanitizedFolder=$BUILD/address-undefined
 sanitizedEnvironment=(
     "ECLAIRAGE=$(absolute "$sanitizedFolder")/eclairage" "ECLAIRAGE_SANITIZED=1"
-    "ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1:exitcode=99:log_path=$reports${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
-    "UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1:exitcode=99:log_path=$reports${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}"
+    "ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1:exitcode=99:log_path=$reports:${ASAN_OPTIONS-}"
+    "UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1:exitcode=99:log_path=$reports:${UBSAN_OPTIONS-}"
 )
 plainEnvironment=("ECLAIRAGE=$(absolute "$BUILD")/eclairage")
 if [ -n "$SANITIZE" ]; then
@@ -287,7 +287,7 @@ treeBefore=$(git status --porcelain 2>/dev/null || echo unknown)
 if [ -n "${SUITES-}" ]; then
     suites=$SUITES
 elif [ -n "$SANITIZE" ]; then
-    suites='unit cli shell'
+    suites='unit cli'
 else
     suites='style unit cli shell sanitized warnings browser clean'
 fi

@@ -10,12 +10,12 @@ trap 'rm -rf "$folder"' EXIT
 prefix=$folder/prefix
 number=0
 failures=0
-# Prints the verdict on a command; what it printed explains a failure.
+# Runs a command in a subshell and prints the verdict; what the command printed explains a failure.
 test_() { # LABEL COMMAND...
     local label=$1
     shift
     number=$((number + 1))
-    if "$@" >"$folder/output" 2>&1; then
+    if ("$@") >"$folder/output" 2>&1; then
         echo "ok $number - $label"
     else
         echo "not ok $number - $label"
@@ -93,8 +93,8 @@ userProgramRuns() { # EXTRA_PKG_CONFIG_OPTION...
     writeProgram
     rm -f picture.png
     # shellcheck disable=SC2046 # pkg-config prints words
-    "$CC" -std=c17 -Wall -Wextra -Werror -o program program.c $(pkg-config --cflags --libs "$@" eclairage) \
-        ${SANITIZE:+-fsanitize="$SANITIZE"} && ./program && [ -s picture.png ]
+    "$CC" -std=c17 -Wall -Wextra -Werror -o program program.c $(pkg-config --cflags --libs "$@" eclairage) &&
+        ./program && [ -s picture.png ]
 }
 
 stagedTreeIsTheSame() {
@@ -113,6 +113,7 @@ uninstallLeavesNothing() { # FOLDER VARIABLE=VALUE...
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 echo 1..10
 test_ "make install" "$MAKE" --no-print-directory install PREFIX="$prefix"
+[ "$failures" = 0 ] || exit 1 # nothing below means anything
 test_ "everything is in its place" filesAreInPlace
 test_ "the installed program runs and prints the installed schema" programRuns
 test_ "the program and pkg-config say the same version" versionsAgree
