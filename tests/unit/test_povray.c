@@ -1,5 +1,6 @@
 /* Export and runner: what the .pov says and refuses to say, and a run that nothing outside can change
  * and that leaves nothing behind. Runs of the real POV-Ray are skipped where there is none. */
+#define _GNU_SOURCE
 #include "base/files.h"
 #include "povray/export.h"
 #include "povray/pov_scale.h"
@@ -198,6 +199,18 @@ static void missingPovraySaysHowToInstallIt(void **state)
     free(path);
 }
 
+/* Whether the process is there and not only waiting to be reaped by whoever inherited it. */
+static bool isRunning(int pid)
+{
+    char path[64], *text = NULL;
+    size_t length;
+    snprintf(path, sizeof path, "/proc/%d/stat", pid);
+    Status status = readWholeFile(path, 1000, &text, &length);
+    bool running = statusIsOk(&status) && strstr(text, ") Z ") == NULL;
+    free(text);
+    return running;
+}
+
 static void failureAndTimeoutAreTold(void **state)
 {
     (void)state;
@@ -230,12 +243,24 @@ static void failureAndTimeoutAreTold(void **state)
     free(fake);
 
     /* The program and what it started are ended. */
-    fake = fakePovray("#!/bin/sh\n/bin/sleep 60 & wait\n");
+    fake = fakePovray("#!/bin/sh\n/bin/sleep 60 &\necho $! > ${0%/*}/pid\nwait\n");
     PovraySettings hasty = small;
     hasty.timeoutSeconds = 0.2;
     status = runPovray("", &hasty, &image);
     assert_int_equal(status.code, STATUS_POVRAY);
     assert_non_null(strstr(status.message, "longer than"));
+    char pidPath[512], *pid = NULL;
+    size_t length;
+    snprintf(pidPath, sizeof pidPath, "%s/pid", fake);
+    status = readWholeFile(pidPath, 100, &pid, &length);
+    assert_true(statusIsOk(&status));
+    bool alive = true;
+    for (int i = 0; i < 200 && alive; i++) {
+        usleep(10000);
+        alive = isRunning(atoi(pid));
+    }
+    assert_false(alive);
+    free(pid);
     removeFolder(fake);
     free(fake);
     setenv("PATH", path, 1);
@@ -261,7 +286,7 @@ static void theRealOneDrawsOurPicture(void **state)
     assert_non_null(getcwd(here, sizeof here));
     /* Configurations that would change size, samples and gamma, where POV-Ray looks for them. */
     assert_int_equal(chdir(surroundings), 0);
-    const char *ini = "Width=10\nHeight=10\nAntialias=On\nFile_Gamma=2.2\nOutput_to_File=off\n";
+    const char *ini = "Quality=1\nEnd_Column=20\nWidth=10\nAntialias=On\nFile_Gamma=2.2\n";
     Status status = writeWholeFile("povray.ini", ini, strlen(ini));
     assert_true(statusIsOk(&status));
     status = makeFolders(".povray/3.7");
