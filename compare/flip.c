@@ -161,12 +161,12 @@ LANES_INLINE void filterRows(const FlipContext *context, FlipScratch *scratch, i
             storeLanes(&scratch->rows[ROW_BLUE_1][y][x], blue1);
             storeLanes(&scratch->rows[ROW_BLUE_2][y][x], blue2);
             /* Blur luma by the detectors' Gaussian, and differentiate once and twice. */
-            Lanes gauss = context->gauss[0] * loadLanes(luma), point = context->point[0] * loadLanes(luma);
-            Lanes edge = {0};
+            Lanes center = loadLanes(luma);
+            Lanes gauss = context->gauss[0] * center, edge = {0}, point = {0};
             for (int k = 1; k <= FEATURE_RADIUS; k++) {
                 Lanes before = loadLanes(luma - k), after = loadLanes(luma + k);
                 gauss += context->gauss[k] * (before + after);
-                point += context->point[k] * (before + after);
+                point += context->point[k] * (before + after - 2 * center);
                 edge += context->edge[k] * (after - before);
             }
             storeLanes(&scratch->rows[ROW_GAUSS][y][x], gauss);
@@ -216,10 +216,10 @@ LANES_INLINE void seeFeatures(const FlipContext *context, FlipScratch *scratch, 
         filterLanes(context->gauss, FEATURE_RADIUS, &scratch->rows[ROW_EDGE][y + MARGIN][x], TILE_WIDTH);
     Lanes pointX =
         filterLanes(context->gauss, FEATURE_RADIUS, &scratch->rows[ROW_POINT][y + MARGIN][x], TILE_WIDTH);
-    Lanes edgeY = {0}, pointY = context->point[0] * loadLanes(gauss);
+    Lanes center = loadLanes(gauss), edgeY = {0}, pointY = {0};
     for (int k = 1; k <= FEATURE_RADIUS; k++) {
         Lanes above = loadLanes(gauss - k * TILE_WIDTH), below = loadLanes(gauss + k * TILE_WIDTH);
-        pointY += context->point[k] * (above + below);
+        pointY += context->point[k] * (above + below - 2 * center);
         edgeY += context->edge[k] * (below - above);
     }
     storeLanes(&scratch->seen[which][SEEN_EDGE][y][x], sqrtLanes(edgeX * edgeX + edgeY * edgeY));
@@ -384,7 +384,9 @@ static void prepareColorFilters(FlipContext *context, double pixelsPerDegree)
 }
 
 /* The Gaussian and its derivatives: the first one's positive weights sum to 1 and its negative ones to -1,
- * and so do the second one's (section 4.2). */
+ * and so do the second one's (section 4.2). As all of the second one's sum to 0, its middle weight can act
+ * through the others, each on the difference from the middle: where a picture is uniform the sum is then
+ * exactly 0. Rounding would leave 1e-8, of which the feature exponent makes 1e-4. */
 static void prepareFeatureFilters(FlipContext *context, double pixelsPerDegree)
 {
     double deviation = 0.5 * FEATURE_WIDTH * pixelsPerDegree;

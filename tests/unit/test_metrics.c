@@ -179,12 +179,16 @@ static void equalPictures(void **unused)
 static void failIsExactAtEveryStep(void **unused)
 {
     (void)unused;
-    for (unsigned step = 0; step < 256; step++) {
-        Image a = uniformImage(1, 1, 0, 0, 0), b = uniformImage(1, 1, 0, step, 0);
-        char text[NUMBER_TEXT_SIZE];
-        double fail = parseDouble(formatDouble(text, step / 255.0), NULL);
-        assert_int_equal(measureWith(&a, &b, fail, 1).differingPixels, 0);
-        assert_int_equal(measureWith(&a, &b, nextafter(fail, -1), 1).differingPixels, 1);
+    for (int bitDepth = 8; bitDepth <= 16; bitDepth += 8) {
+        Image a = makeImage(1, 1, bitDepth, ENCODING_SRGB), b = makeImage(1, 1, bitDepth, ENCODING_SRGB);
+        unsigned largest = imageMaxSample(&a);
+        for (unsigned step = 0; step <= largest; step += bitDepth == 8 ? 1 : 61) {
+            b.samples[1] = (uint16_t)step;
+            char text[NUMBER_TEXT_SIZE];
+            double fail = parseDouble(formatDouble(text, step / (double)largest), NULL);
+            assert_int_equal(measureWith(&a, &b, fail, 1).differingPixels, 0);
+            assert_int_equal(measureWith(&a, &b, nextafter(fail, -1), 1).differingPixels, 1);
+        }
         freeImage(&a);
         freeImage(&b);
     }
