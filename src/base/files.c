@@ -288,13 +288,11 @@ static int openDescriptor(OutputFile *output)
         return output->descriptor >= 0 ? 0 : errno;
     }
 
-    /* A special file is written itself, a folder not at all. */
+    /* A special file is written itself; a folder cannot be opened. */
     struct stat old;
     bool exists = stat(output->path, &old) == 0;
     if (!exists && errno != ENOENT)
         return errno;
-    if (exists && S_ISDIR(old.st_mode))
-        return EISDIR;
     if (exists && !S_ISREG(old.st_mode))
         return openSpecialFile(output, old.st_mode);
 
