@@ -16,7 +16,7 @@ SANITIZE ?=
 # Off by default, so that a newer compiler with a new warning still builds the program.
 ## WERROR=1: make warnings errors, as `make test` does
 WERROR ?=
-## CC=clang: the compiler; CPPFLAGS, CFLAGS and LDFLAGS are added to the flags
+## CC=clang: the compiler; CPPFLAGS, CFLAGS, LDFLAGS and PKG_CONFIG mean what they usually do
 ## V=1: show the commands
 V ?= 0
 Q := $(if $(filter 1,$(V)),,@)
@@ -38,8 +38,8 @@ ARITHMETIC := -ffp-contract=off -fno-math-errno -fno-trapping-math
 # -Wpedantic: ISO C only, so that both compilers agree.
 # -Wno-psabi: gcc's remark that old versions passed wide vectors otherwise; ours never leave one file.
 # -Wstrict-prototypes, -Wmissing-prototypes: every public function is declared in a header.
-WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Wstrict-prototypes -Wmissing-prototypes -Wno-psabi \
-	$(if $(WERROR),-Werror)
+WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Wno-psabi \
+	-Wstrict-prototypes -Wmissing-prototypes $(if $(WERROR),-Werror)
 
 # -fno-sanitize-recover: the first finding ends the program, so that no test passes over one.
 # -fno-omit-frame-pointer: whole stack traces in the reports.
@@ -55,14 +55,15 @@ LIBRARIES = $(PACKAGE_LIBS) -lm -pthread
 
 # Each of these variables computes itself when it is first used and then keeps its value: one run of
 # pkg-config for a whole build, none for `make help`.
+PKG_CONFIG ?= pkg-config
 PACKAGES := yaml-0.1 libpng
-PACKAGE_CFLAGS = $(eval PACKAGE_CFLAGS := $$(shell pkg-config --cflags $(PACKAGES)))$(PACKAGE_CFLAGS)
-PACKAGE_LIBS = $(eval PACKAGE_LIBS := $$(shell pkg-config --libs $(PACKAGES)))$(PACKAGE_LIBS)
+PACKAGE_CFLAGS = $(eval PACKAGE_CFLAGS := $$(shell $(PKG_CONFIG) --cflags $(PACKAGES)))$(PACKAGE_CFLAGS)
+PACKAGE_LIBS = $(eval PACKAGE_LIBS := $$(shell $(PKG_CONFIG) --libs $(PACKAGES)))$(PACKAGE_LIBS)
 # These expand to nothing, or end make with one line that names what is missing and how to install it.
 REQUIRE_BUILD_TOOLS = $(call require,build)$(eval REQUIRE_BUILD_TOOLS :=)
 REQUIRE_UNIT_TOOLS = $(call require,unit)$(eval REQUIRE_UNIT_TOOLS :=)
-require = $(eval MISSING := $$(shell CC='$(CC)' tools/install-dependencies.sh --missing $(1)))$(if \
-	$(MISSING),$(error $(MISSING)))
+require = $(eval MISSING := $$(shell $(INSTALLER) --missing $(1)))$(if $(MISSING),$(error $(MISSING)))
+INSTALLER = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' tools/install-dependencies.sh
 
 # ---------------------------------------------------------------------------------------------------------
 # Files
@@ -116,7 +117,8 @@ $(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
 # A stamp changes only when its text does: other flags or another compiler rebuild everything, a removed
 # source leaves the library, and otherwise nothing happens.
 quote = '$(subst ','\'',$(1))'
-stamp = $(Q)mkdir -p $(@D); printf '%s\n' $(call quote,$(1)) | cmp -s - $@ || printf '%s\n' $(call quote,$(1)) >$@
+stamp = $(Q)mkdir -p $(@D); text=$(call quote,$(1)); \
+	[ "$$text" = "$$(cat $@ 2>/dev/null)" ] || printf '%s\n' "$$text" >$@
 $(BUILD)/flags: FORCE
 	$(call stamp,$(COMPILE))
 $(BUILD)/library-files: FORCE
@@ -134,7 +136,7 @@ PARALLEL = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc 2>/dev/null || echo 
 
 ## demo: install what is missing, build, render every scene and compare it with POV-Ray
 demo:
-	@CC='$(CC)' tools/install-dependencies.sh build demo
+	@$(INSTALLER) build demo
 	@$(MAKE) --no-print-directory $(PARALLEL) all
 	@status=0; \
 	$(BUILD)/eclairage compare scenes/course/*.yaml scenes/gallery/*.yaml --out $(BUILD)/report || status=$$?; \
@@ -143,7 +145,7 @@ demo:
 
 ## test: install what is missing and run all tests; SUITES='unit cli' runs only those
 test:
-	@CC='$(CC)' tools/install-dependencies.sh build demo unit test
+	@$(INSTALLER) build demo unit test
 	@MAKE='$(MAKE)' CC='$(CC)' BUILD='$(BUILD)' SANITIZE='$(SANITIZE)' VERSION='$(VERSION)' tools/run-tests.sh
 
 ## unit: build the unit tests; `CMOCKA_MESSAGE_OUTPUT=TAP build/tests/test_NAME` runs one
@@ -151,7 +153,7 @@ unit: $(UNIT_TESTS)
 
 ## setup: install everything the tests can use, the browser's among it
 setup:
-	@CC='$(CC)' tools/install-dependencies.sh build demo unit test browser
+	@$(INSTALLER) build demo unit test browser
 
 ## lint: check the layout of the code, who includes whom, and the shell scripts
 lint:

@@ -6,12 +6,14 @@
 #
 # Purposes: build, demo, unit, test, browser (see the tables below). A thing counts as present when it works,
 # wherever it came from, so a compiler or node that apt knows nothing of is left alone. Optional things only
-# add test suites: without them the suite is skipped, aloud. CC names the compiler.
+# add test suites: without them the suite is skipped, aloud. CC and PKG_CONFIG name the programs to use.
 
 # The functions of the tables are called by name.
 # shellcheck disable=SC2317
 set -u
 cd "$(dirname "$0")/.." || exit 1
+
+pkgConfig=${PKG_CONFIG:-pkg-config}
 
 has() {
     command -v "$1" >/dev/null 2>&1
@@ -20,14 +22,16 @@ has() {
 # The tables: what each purpose needs, as  require|suggest PACKAGES COMMAND..., where COMMAND succeeds when the
 # packages are not needed any more.
 need_build() {
-    case ${CC:-cc} in
-    *clang*) require "clang libc6-dev" compilerWorks ;;
-    *) require "gcc libc6-dev" compilerWorks ;;
-    esac
+    # Packages of compilers are named after them: clang, gcc-13. A compiler is of no use without the C
+    # library's headers, so ask for both at once.
+    compiler=${CC:-cc}
+    compiler=${compiler%% *}
+    [ "$compiler" != cc ] || compiler=gcc
+    require "${compiler##*/} libc6-dev" headerExists stdio.h
     require make has make
-    require pkg-config has pkg-config
-    require libyaml-dev pkg-config --exists yaml-0.1
-    require libpng-dev pkg-config --exists libpng
+    require pkg-config has "$pkgConfig"
+    require libyaml-dev "$pkgConfig" --exists yaml-0.1
+    require libpng-dev "$pkgConfig" --exists libpng
 }
 need_demo() {
     require povray has povray
@@ -47,10 +51,6 @@ need_browser() {
     suggest npm has npm
 }
 
-# A compiler without the C library's headers cannot compile, so ask for both at once.
-compilerWorks() {
-    headerExists stdio.h
-}
 headerExists() {
     # CC may be several words, such as `ccache gcc`.
     # shellcheck disable=SC2086

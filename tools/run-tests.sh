@@ -253,7 +253,7 @@ suite_shell() {
 
 suite_browser() {
     local file title="The report in a browser"
-    hasFiles tests/browser/*.test.* || return 0
+    hasFiles tests/browser/*test*.*js || return 0
     if ! command -v node >/dev/null; then
         skipSuite "$title" "node is not installed (make setup installs it)"
     elif [ ! -d tests/browser/node_modules/playwright-core ]; then
@@ -264,7 +264,7 @@ suite_browser() {
     else
         beginSuite "$title" browser
         if build "$BUILD" all SANITIZE="$SANITIZE"; then
-            for file in tests/browser/*.test.*; do
+            for file in tests/browser/*test*.*js; do
                 addJob "${file##*/}" env "${plainEnvironment[@]}" node "$file"
             done
         fi
