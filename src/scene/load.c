@@ -1,0 +1,163 @@
+/* load.c - from a YAML file to a Scene; see load.h.
+ *
+ * The file is one mapping of sections. Each section is read into values as soon as it is complete, and a
+ * list of lights or objects item by item, so that reading takes the memory of the scene and not of the
+ * file's tree.
+ */
+#include "scene/load.h"
+
+#include "base/files.h"
+#include "scene/material_names.h"
+#include "scene/read_values.h"
+#include "scene/reader.h"
+#include "scene/scene_warnings.h"
+#include "scene/yaml_tree.h"
+
+#include <stdlib.h>
+
+enum {
+    LARGEST_FILE = 1 << 30 /* bytes */
+};
+
+/* Read the items of the list that comes next, each one's memory being used again for the next one's. */
+static void readItems(SceneReader *reader, YamlReader *yaml, const FormatKinds *kinds)
+{
+    Place place;
+    enterYaml(yaml, &place);
+    while (peekYaml(yaml) != NEXT_END && !yaml->failed && !reader->outOfMemory) {
+        ArenaMark mark = arenaMark(&yaml->arena);
+        size_t anchors = yaml->anchorNames.count;
+        const YamlNode *item = readYamlNode(yaml);
+        if (item == NULL)
+            return;
+        readKindItem(reader, kinds, item);
+
+        /* What an alias may lead to must stay. */
+        if (yaml->anchorNames.count == anchors)
+            arenaRewind(&yaml->arena, mark);
+    }
+    if (!yaml->failed)
+        leaveYaml(yaml);
+}
+
+/* Read one section: its key and its value. */
+static void readSection(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
+{
+    const YamlNode *keyNode = readYamlNode(yaml);
+    if (keyNode == NULL)
+        return;
+    size_t number;
+    const FormatKey *key = acceptKey(reader, given, keyNode, &number);
+    YamlNext next = peekYaml(yaml);
+    if (key != NULL && key->type == FORMAT_KINDS && next == NEXT_LIST && !nextHasAnchor(yaml)) {
+        readItems(reader, yaml, key->kinds);
+        return;
+    }
+    const YamlNode *value = readYamlNode(yaml);
+    if (key != NULL && value != NULL)
+        readValue(reader, given, number, value, reader->scene);
+}
+
+/* Read the root, which must be a mapping. */
+static void readRoot(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
+{
+    YamlNext next = peekYaml(yaml);
+    if (next == NEXT_FAILED)
+        return;
+    if (next != NEXT_MAPPING) {
+        bool isEmpty = next == NEXT_END || (next == NEXT_SCALAR && yaml->event.data.scalar.length == 0);
+        Place place = {1, 1, 1};
+        if (isEmpty)
+            reportError(reader, place, "a scene begins, for example, with objects:", "the file is empty");
+        const YamlNode *root = isEmpty ? NULL : readYamlNode(yaml);
+        if (root != NULL) {
+            Text what = {0};
+            textAppendNode(&what, root);
+            reportError(reader, root->place, "write sections such as camera: and objects:",
+                        "a scene must be a mapping {key: value}, but this is %s", textString(&what));
+            textFree(&what);
+        }
+        return;
+    }
+    Place place;
+    enterYaml(yaml, &place);
+    while (peekYaml(yaml) != NEXT_END && !yaml->failed && !reader->outOfMemory)
+        readSection(reader, yaml, given);
+    if (yaml->failed || reader->outOfMemory)
+        return;
+    leaveYaml(yaml);
+    endMapping(reader, given, reader->scene, reader->scene);
+    resolveMaterials(reader);
+}
+
+/* What the diagnostics come to. */
+static Status statusOfDiagnostics(const Diagnostics *diagnostics)
+{
+    const Diagnostic *first = NULL;
+    for (size_t i = 0; i < diagnostics->count && first == NULL; i++)
+        if (diagnostics->items[i].severity == SEVERITY_ERROR)
+            first = &diagnostics->items[i];
+    if (first == NULL)
+        return statusOk();
+    if (diagnostics->errors == 1)
+        return statusErrorAt(STATUS_SCENE, first->line, first->column, "%s", first->message);
+    return statusErrorAt(STATUS_SCENE, first->line, first->column, "%s (and %zu more errors)", first->message,
+                         diagnostics->errors - 1);
+}
+
+Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnostics *diagnostics)
+{
+    *scene = createScene();
+    Diagnostics found = {0};
+    if (length > LARGEST_FILE)
+        return statusError(STATUS_IO, "the scene is larger than 1 GiB");
+    SourceText source = openSourceText(text, length);
+    SceneReader reader = beginReader(scene, &source, &found);
+    EncodingFault fault;
+    bool outOfMemory = false, interrupted = false;
+    if (!checkEncoding(&source, &fault)) {
+        reportError(&reader, fault.place, fault.hint, "%s", fault.message);
+    } else {
+        YamlReader yaml;
+        GivenKeys given;
+        openYaml(&yaml, &source, &found);
+        beginMapping(&sceneFormat, (Place){1, 1, 1}, &given, scene);
+        readRoot(&reader, &yaml, &given);
+        if (!reader.outOfMemory)
+            finishYaml(&yaml);
+        outOfMemory = yaml.outOfMemory;
+        interrupted = yaml.interrupted;
+        if (found.errors == 0 && !yaml.failed && !reader.outOfMemory)
+            addSceneWarnings(&reader, &given);
+        closeYaml(&yaml);
+    }
+    outOfMemory = outOfMemory || reader.outOfMemory || found.outOfMemory;
+    freeReader(&reader);
+    closeSourceText(&source);
+
+    /* Hand over what was found, and the scene only when all is well. */
+    diagnosticsSort(&found);
+    Status status = outOfMemory   ? statusOutOfMemory()
+                    : interrupted ? statusInterrupted()
+                                  : statusOfDiagnostics(&found);
+    diagnosticsFree(diagnostics);
+    *diagnostics = found;
+    if (!statusIsOk(&status)) {
+        freeScene(scene);
+        *scene = createScene();
+    }
+    return status;
+}
+
+Status loadScene(const char *path, Scene *scene, Diagnostics *diagnostics)
+{
+    *scene = createScene();
+    char *text;
+    size_t length;
+    Status status = readWholeFile(path, LARGEST_FILE, &text, &length);
+    if (!statusIsOk(&status))
+        return status;
+    status = loadSceneFromText(text, length, scene, diagnostics);
+    free(text);
+    return status;
+}

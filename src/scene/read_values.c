@@ -1,0 +1,362 @@
+/* read_values.c - one value, from a node or from its default in the table; see read_values.h. */
+#include "scene/read_values.h"
+
+#include "scene/suggest.h"
+#include "scene/yaml_scalar.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Reporting ---- */
+
+void textAppendNode(Text *text, const YamlNode *node)
+{
+    if (node->kind == NODE_LIST || node->kind == NODE_MAPPING) {
+        bool empty = node->count == 0;
+        textAppend(text, node->kind == NODE_LIST ? empty ? "an empty list" : "a list"
+                         : empty                 ? "an empty mapping"
+                                                 : "a mapping");
+        return;
+    }
+    ScalarValue value = readScalar(node->text, node->count, node->plain);
+    if (value.type == SCALAR_NULL)
+        textAppend(text, "empty");
+    else if (value.type == SCALAR_TEXT)
+        textAppendFormat(text, "the text '%s'", quoteBytes(node->text, node->count).text);
+    else
+        textAppend(text, quoteBytes(node->text, node->count).text);
+}
+
+void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value)
+{
+    Text message = {0}, hint = {0};
+    textAppendFormat(&message, "'%s' must be ", key->name);
+    textAppendExpectation(&message, key);
+    textAppend(&message, ", but is ");
+    textAppendNode(&message, value);
+    if (value->kind == NODE_SCALAR && value->count == 0)
+        textAppend(&hint, key->type == FORMAT_KINDS ? "write [] for an empty list"
+                                                    : "write its value behind the ':', or leave the key out");
+    else if (key->type == FORMAT_KINDS && value->kind == NODE_MAPPING)
+        textAppendFormat(&hint, "begin each %s with '- '", key->kinds->noun);
+    reportError(reader, place, hint.length > 0 ? hint.data : NULL, "%s", textString(&message));
+    textFree(&message);
+    textFree(&hint);
+}
+
+/* What a text that should be a number may be mended by, or NULL. */
+static const char *numberHint(const YamlNode *value)
+{
+    if (value->kind != NODE_SCALAR)
+        return NULL;
+    const char *s = value->text;
+    if (!value->plain) {
+        ScalarValue inside = readScalar(s, value->count, true);
+        bool isNumber = inside.type == SCALAR_INTEGER || inside.type == SCALAR_FLOAT;
+        return isNumber ? "remove the quotes" : NULL;
+    }
+    s += *s == '-' || *s == '+';
+    if (!(*s >= '0' && *s <= '9') && *s != '.')
+        return NULL;
+    const char *digits = s + strspn(s, "0123456789.");
+    if (*digits == ',')
+        return "write a point instead of the comma";
+    if (*digits == '_' || *digits == '\'')
+        return "write the digits without anything between them";
+    if (*digits == '/' || *digits == '*')
+        return "write the result; nothing is computed in a scene file";
+    return "write the number alone, without a unit";
+}
+
+/* A value's name in messages: "'center'", or "the x of 'center'". */
+typedef struct ValueName {
+    char text[80];
+} ValueName;
+
+static ValueName nameValue(const FormatKey *key, const char *component)
+{
+    ValueName name;
+    if (component == NULL)
+        snprintf(name.text, sizeof name.text, "'%s'", key->name);
+    else
+        snprintf(name.text, sizeof name.text, "the %s of '%s'", component, key->name);
+    return name;
+}
+
+/* ---- Numbers ---- */
+
+/* Read a number of the key or, with component not NULL, of its list. largest: what the type that stores it
+ * can hold. */
+static bool readNumber(SceneReader *reader, const FormatKey *key, const char *component,
+                       const FormatRange *range, double largest, Place place, const YamlNode *value,
+                       double *number)
+{
+    ValueName name = nameValue(key, component);
+    ScalarValue scalar = {.type = SCALAR_TEXT};
+    if (value->kind == NODE_SCALAR)
+        scalar = readScalar(value->text, value->count, value->plain);
+    bool isNumber = scalar.type == SCALAR_INTEGER || scalar.type == SCALAR_FLOAT;
+    bool wantsInteger = key->type == FORMAT_INTEGER;
+    Text message = {0};
+    const char *hint = NULL;
+    if (!isNumber) {
+        textAppendFormat(&message, "%s must be a %snumber", name.text, wantsInteger ? "whole " : "");
+        if (range->low != LIMIT_NONE || range->high != LIMIT_NONE)
+            textAppend(&message, " ");
+        textAppendRange(&message, range);
+        textAppend(&message, ", but is ");
+        textAppendNode(&message, value);
+        hint = numberHint(value);
+    } else if (scalar.overflow || (isfinite(scalar.number) && fabs(scalar.number) > largest)) {
+        textAppendFormat(&message, "%s is too large: %s is beyond ", name.text,
+                         quoteBytes(value->text, value->count).text);
+        textAppend(&message, largest < DBL_MAX ? "3.4e38" : "1.8e308");
+        if (range->low != LIMIT_NONE || range->high != LIMIT_NONE) {
+            textAppend(&message, "; it must be ");
+            textAppendRange(&message, range);
+        }
+    } else if (!isfinite(scalar.number)) {
+        textAppendFormat(&message, "%s must be an ordinary number, but is %s", name.text, value->text);
+    } else if (wantsInteger && scalar.type != SCALAR_INTEGER) {
+        textAppendFormat(&message, "%s needs a whole number, but is %s", name.text,
+                         quoteBytes(value->text, value->count).text);
+        hint = "write it without a decimal point";
+    } else if (!isInFormatRange(range, scalar.number)) {
+        textAppendFormat(&message, "%s must be ", name.text);
+        textAppendRange(&message, range);
+        textAppendFormat(&message, ", but is %s", quoteBytes(value->text, value->count).text);
+    }
+    bool right = message.length == 0;
+    if (right)
+        *number = scalar.number;
+    else
+        reportError(reader, place, hint, "%s", message.data);
+    textFree(&message);
+    return right;
+}
+
+/* Read three numbers; each that is wrong is reported. */
+static bool readThree(SceneReader *reader, const FormatKey *key, const char *const components[3],
+                      const FormatRange *range, double largest, Place place, const YamlNode *list,
+                      double numbers[3])
+{
+    if (list->count != 3) {
+        reportError(reader, place, NULL, "'%s' needs 3 numbers [%s, %s, %s], but has %zu", key->name,
+                    components[0], components[1], components[2], list->count);
+        return false;
+    }
+    bool right = true;
+    const YamlNode *item = list->first;
+    for (int i = 0; i < 3; i++, item = item->next) {
+        const YamlNode *value = resolveAlias(item);
+        right = value != NULL &&
+                readNumber(reader, key, components[i], range, largest, item->place, value, &numbers[i]) &&
+                right;
+    }
+    return right;
+}
+
+static bool readVector(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                       Vector3D *vector)
+{
+    static const char *const components[3] = {"x", "y", "z"};
+    if (value->kind != NODE_LIST) {
+        reportWrongType(reader, key, place, value);
+        return false;
+    }
+    double v[3];
+    if (!readThree(reader, key, components, &key->range, DBL_MAX, place, value, v))
+        return false;
+    if (key->type == FORMAT_DIRECTION && v[0] == 0 && v[1] == 0 && v[2] == 0) {
+        reportError(reader, place, "at least one of the three numbers must not be 0",
+                    "'%s' has length 0 and so points nowhere", key->name);
+        return false;
+    }
+    *vector = createVector(v[0], v[1], v[2]);
+    return true;
+}
+
+static bool readColor(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                      Color3f *color)
+{
+    static const char *const components[3] = {"r", "g", "b"};
+    double c[3];
+    if (value->kind == NODE_LIST) {
+        if (!readThree(reader, key, components, &colorRange, (double)FLT_MAX, place, value, c))
+            return false;
+    } else {
+        ScalarValue scalar = {.type = SCALAR_TEXT};
+        if (value->kind == NODE_SCALAR)
+            scalar = readScalar(value->text, value->count, value->plain);
+        if (scalar.type != SCALAR_INTEGER && scalar.type != SCALAR_FLOAT) {
+            reportWrongType(reader, key, place, value);
+            return false;
+        }
+        if (!readNumber(reader, key, NULL, &colorRange, (double)FLT_MAX, place, value, &c[0]))
+            return false;
+        c[1] = c[2] = c[0];
+    }
+    *color = createColor((float)c[0], (float)c[1], (float)c[2]);
+    return true;
+}
+
+/* ---- Words ---- */
+
+static bool readBool(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                     bool *truth)
+{
+    ScalarValue scalar = {.type = SCALAR_TEXT};
+    if (value->kind == NODE_SCALAR)
+        scalar = readScalar(value->text, value->count, value->plain);
+    if (scalar.type != SCALAR_BOOL) {
+        reportWrongType(reader, key, place, value);
+        return false;
+    }
+    *truth = scalar.truth;
+    return true;
+}
+
+/* Store the choice with this word or number; false when it is none. */
+static bool findChoice(const FormatKey *key, const YamlNode *value, int *choice)
+{
+    if (value->kind != NODE_SCALAR)
+        return false;
+    ScalarValue scalar = readScalar(value->text, value->count, value->plain);
+    for (size_t i = 0; i < key->choiceCount; i++) {
+        const FormatChoice *c = &key->choices[i];
+        bool same = key->type == FORMAT_INTEGER
+                        ? scalar.type == SCALAR_INTEGER && scalar.number == c->value
+                        : strcmp(c->word, value->text) == 0 && strlen(c->word) == value->count;
+        if (same) {
+            *choice = c->value;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool readChoice(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                       int *choice)
+{
+    if (findChoice(key, value, choice))
+        return true;
+    bool isWord =
+        value->kind == NODE_SCALAR && readScalar(value->text, value->count, value->plain).type == SCALAR_TEXT;
+    if (!isWord || key->type == FORMAT_INTEGER) {
+        reportWrongType(reader, key, place, value);
+        return false;
+    }
+    Suggestion suggestion = {.word = value->text, .length = value->count};
+    for (size_t i = 0; i < key->choiceCount; i++)
+        tryCandidate(&suggestion, key->choices[i].word);
+    Text choices = {0};
+    textAppendChoices(&choices, key);
+    char hint[80];
+    snprintf(hint, sizeof hint, "did you mean '%s'?", suggestion.best != NULL ? suggestion.best : "");
+    reportError(reader, place, suggestion.best != NULL ? hint : NULL, "'%s' must be %s, but is '%s'",
+                key->name, textString(&choices), quoteBytes(value->text, value->count).text);
+    textFree(&choices);
+    return false;
+}
+
+/* ---- One value ---- */
+
+bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                     void *target)
+{
+    double number;
+    switch (key->type) {
+    case FORMAT_NUMBER:
+        return readNumber(reader, key, NULL, &key->range, DBL_MAX, place, value, target);
+    case FORMAT_FLOAT:
+        if (!readNumber(reader, key, NULL, &key->range, (double)FLT_MAX, place, value, &number))
+            return false;
+        *(float *)target = (float)number;
+        return true;
+    case FORMAT_INTEGER:
+        if (key->choiceCount > 0)
+            return readChoice(reader, key, place, value, target);
+        if (!readNumber(reader, key, NULL, &key->range, DBL_MAX, place, value, &number))
+            return false;
+        *(int *)target = (int)number;
+        return true;
+    case FORMAT_BOOL:
+        return readBool(reader, key, place, value, target);
+    case FORMAT_CHOICE:
+        return readChoice(reader, key, place, value, target);
+    case FORMAT_POINT:
+    case FORMAT_DIRECTION:
+        return readVector(reader, key, place, value, target);
+    case FORMAT_COLOR:
+        return readColor(reader, key, place, value, target);
+    case FORMAT_MATERIAL:
+    case FORMAT_MAPPING:
+    case FORMAT_NAMED:
+    case FORMAT_KINDS:
+        break;
+    }
+    return false;
+}
+
+/* The numbers of a default: one, or those of a list [a, b, c]. */
+static void readDefaultNumbers(const char *text, double numbers[3])
+{
+    if (*text != '[') {
+        numbers[0] = numbers[1] = numbers[2] = parseDouble(text, NULL);
+        return;
+    }
+    char *s = (char *)(uintptr_t)text;
+    for (int i = 0; i < 3; i++)
+        numbers[i] = parseDouble(s + 1, &s);
+}
+
+void storeDefault(const FormatKey *key, void *values)
+{
+    void *target = (char *)values + key->offset;
+    if (key->type == FORMAT_MATERIAL) {
+        *(Material *)target = defaultMaterial();
+        return;
+    }
+    if (key->fallback == NULL) {
+        if (key->type == FORMAT_NUMBER && key->optional)
+            *(double *)target = NAN;
+        return;
+    }
+    double n[3];
+    switch (key->type) {
+    case FORMAT_NUMBER:
+        *(double *)target = parseDouble(key->fallback, NULL);
+        break;
+    case FORMAT_FLOAT:
+        *(float *)target = (float)parseDouble(key->fallback, NULL);
+        break;
+    case FORMAT_INTEGER:
+        *(int *)target = (int)parseDouble(key->fallback, NULL);
+        break;
+    case FORMAT_BOOL:
+        *(bool *)target = *key->fallback == 't';
+        break;
+    case FORMAT_CHOICE:
+        for (size_t i = 0; i < key->choiceCount; i++)
+            if (strcmp(key->choices[i].word, key->fallback) == 0)
+                *(int *)target = key->choices[i].value;
+        break;
+    case FORMAT_POINT:
+    case FORMAT_DIRECTION:
+        readDefaultNumbers(key->fallback, n);
+        *(Vector3D *)target = createVector(n[0], n[1], n[2]);
+        break;
+    case FORMAT_COLOR:
+        readDefaultNumbers(key->fallback, n);
+        *(Color3f *)target = createColor((float)n[0], (float)n[1], (float)n[2]);
+        break;
+    case FORMAT_MATERIAL:
+    case FORMAT_MAPPING:
+    case FORMAT_NAMED:
+    case FORMAT_KINDS:
+        break;
+    }
+}

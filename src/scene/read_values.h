@@ -1,0 +1,25 @@
+/* read_values.h - one value, from a node or from its default in the table.
+ *
+ * Invariant: what is stored is finite and within the key's range; nothing is stored where an error was
+ * reported.
+ */
+#ifndef ECLAIRAGE_SCENE_READ_VALUES_H
+#define ECLAIRAGE_SCENE_READ_VALUES_H
+
+#include "scene/reader.h"
+
+/* Read a number, a truth, a word, a vector or a colour; false when it is wrong, which is reported at
+ * place. */
+bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                     void *target);
+
+/* Store the key's default among the values of its mapping. */
+void storeDefault(const FormatKey *key, void *values);
+
+/* Report that the value is something else than the key wants. */
+void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value);
+
+/* Append "a list", "the text 'abc'" and the like. */
+void textAppendNode(Text *text, const YamlNode *node);
+
+#endif
