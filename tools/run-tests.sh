@@ -11,7 +11,7 @@
 # From make come MAKE, CC, BUILD and SANITIZE. Tests get ECLAIRAGE (the program's absolute path), BUILD,
 # CC and MAKE, and ECLAIRAGE_SANITIZED=1 where the program is slower and hungrier than a user's.
 
-set -u
+set -u -o pipefail
 cd "$(dirname "$0")/.." || exit 1
 
 MAKE=${MAKE:-make}
@@ -216,10 +216,11 @@ suite_sanitized() {
     endSuite
 }
 
-# A real build and not only a look at the syntax: some warnings need the optimiser.
-suite_warnings() {
+# A real build and not only a look at the syntax: some warnings need the optimiser. Then the pictures of the
+# compilers and of the sanitized program are the same to the byte.
+suite_compilers() {
     local compiler
-    beginSuite "Warnings are errors, under gcc and clang" warnings
+    beginSuite "gcc and clang: warnings are errors, and the pictures are the same" compilers
     for compiler in gcc clang; do
         if ! command -v $compiler >/dev/null; then
             echo "  skipped: $compiler is not installed"
@@ -228,7 +229,30 @@ suite_warnings() {
             suitePassed=$((suitePassed + 1))
         fi
     done
+    check "the same pictures from every build" samePictures
     endSuite
+}
+samePictures() {
+    local scene folder expected actual program programs=() different=0
+    for folder in "$BUILD/gcc" "$BUILD/clang" "$sanitizedFolder"; do
+        [ ! -x "$folder/eclairage" ] || programs+=("$folder/eclairage")
+    done
+    if [ ${#programs[@]} -lt 2 ]; then
+        echo "there is only one build"
+        return 77
+    fi
+    for scene in scenes/course/*.yaml scenes/gallery/*.yaml; do
+        expected=
+        for program in "${programs[@]}"; do
+            actual=$("$program" render "$scene" --width 64 --quiet -o - | sha256sum) || return 1
+            expected=${expected:-$actual}
+            if [ "$actual" != "$expected" ]; then
+                echo "$scene: $program draws other bytes than ${programs[0]}"
+                different=1
+            fi
+        done
+    done
+    return $different
 }
 
 suite_style() {
@@ -284,18 +308,18 @@ suite_clean() {
 }
 
 treeBefore=$(git status --porcelain 2>/dev/null || echo unknown)
-if [ -n "${SUITES-}" ]; then
-    suites=$SUITES
-elif [ -n "$SANITIZE" ]; then
-    suites='unit cli'
-else
-    suites='style unit cli shell sanitized warnings browser clean'
-fi
+allSuites='style unit cli shell sanitized compilers browser clean'
+suites=$allSuites
+[ -z "$SANITIZE" ] || suites='unit cli'
+suites=${SUITES:-$suites}
 for name in $suites; do
-    if ! declare -F "suite_$name" >/dev/null; then
-        echo "run-tests.sh: there is no suite '$name'; there are: style unit cli shell sanitized warnings browser." >&2
+    case " $allSuites " in
+    *" $name "*) ;;
+    *)
+        echo "run-tests.sh: there is no suite '$name'; there are: $allSuites." >&2
         exit 2
-    fi
+        ;;
+    esac
 done
 for name in $suites; do
     "suite_$name"
