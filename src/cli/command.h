@@ -40,7 +40,7 @@ typedef struct Command {
     size_t fewestOperands, mostOperands;
     const char *summary;     /* one line, for the list of commands */
     const char *examples;    /* lines of "command<TAB>what it does" */
-    const char *description; /* paragraphs, parted by empty lines; a line is at most 78 characters */
+    const char *description; /* one line a paragraph; lines that begin with spaces stay as they are */
     int (*run)(const Arguments *arguments);
 } Command;
 

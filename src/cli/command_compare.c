@@ -180,7 +180,7 @@ static Status drawScene(Run *run, Job *job, const Scene *scene, Image *ours)
     double start = secondsNow();
     RenderOptions options = {.threads = run->threads};
     Status status = renderReference(scene, framebuffer, &options, NULL);
-    job->result.renderSeconds = secondsNow() - start;
+    job->result.renderSeconds = secondsSince(start);
     pthread_mutex_unlock(&run->turn);
     if (statusIsOk(&status)) {
         warnOfNonFinitePixels(framebuffer, job->path, &job->messages);
@@ -200,7 +200,7 @@ static Status drawWithPovray(const Run *run, Job *job, const Scene *scene, const
                                .timeoutSeconds = POVRAY_TIMEOUT};
     double start = secondsNow();
     Status status = runPovray(textString(pov), &settings, povray);
-    job->result.povraySeconds = secondsNow() - start;
+    job->result.povraySeconds = secondsSince(start);
     return status;
 }
 
@@ -215,7 +215,7 @@ static Status measurePictures(Run *run, Job *job, Pictures *pictures)
                                &result->metrics);
     if (statusIsOk(&status))
         status = differencePicture(&pictures->ours, &pictures->povray, &pictures->difference);
-    result->compareSeconds = secondsNow() - start;
+    result->compareSeconds = secondsSince(start);
     pthread_mutex_unlock(&run->turn);
     if (statusIsOk(&status))
         result->verdict = judgeMetrics(&result->metrics, &result->tolerance);

@@ -76,18 +76,18 @@ static Status renderToFile(const Scene *scene, const char *path, int threads, co
     if (framebuffer == NULL)
         return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
                            scene->image.height);
-    double compiled = secondsNow();
-    phases->compile = compiled - start;
+    phases->compile = secondsSince(start);
 
     /* Trace the rays. */
+    start = secondsNow();
     beginProgress("rendering");
     RenderOptions options = {.threads = threads, .progress = showProgress};
     Status status = renderReference(scene, framebuffer, &options, rays);
     endProgress();
-    double traced = secondsNow();
-    phases->trace = traced - compiled;
+    phases->trace = secondsSince(start);
 
     /* Write the picture. */
+    start = secondsNow();
     Image image;
     if (statusIsOk(&status)) {
         Text messages = {0};
@@ -100,7 +100,7 @@ static Status renderToFile(const Scene *scene, const char *path, int threads, co
         status = writePng(output, &image);
         freeImage(&image);
     }
-    phases->write = secondsNow() - traced;
+    phases->write = secondsSince(start);
     return status;
 }
 
@@ -119,16 +119,17 @@ int runRender(const Arguments *arguments)
     if (!statusIsOk(&status))
         return (int)status.code;
 
-    Phases phases = {.load = secondsNow() - start};
+    Phases phases = {.load = secondsSince(start)};
     RayCounts rays = {0};
     int threads = chosenThreads(arguments);
     Text defaultName = {0};
     if (arguments->output == NULL)
         appendPictureName(path, &defaultName);
     const char *output = arguments->output != NULL ? arguments->output : textString(&defaultName);
-    status = defaultName.failed ? statusOutOfMemory()
-                                : renderToFile(&scene, path, threads, output, &phases, &rays);
-    phases.total = secondsNow() - start;
+    status = defaultName.failed ? statusOutOfMemory() : probeOutput(output);
+    if (statusIsOk(&status))
+        status = renderToFile(&scene, path, threads, output, &phases, &rays);
+    phases.total = secondsSince(start);
 
     int code = (int)status.code;
     if (!statusIsOk(&status)) {

@@ -4,8 +4,8 @@
 #include <string.h>
 
 enum {
-    EXAMPLE_COLUMN = 62, /* where the explanation of an example may begin at most */
-    OPTION_COLUMN = 32   /* where the explanation of an option begins */
+    PAGE_WIDTH = 80,
+    OPTION_COLUMN = 28 /* where the explanation of an option begins */
 };
 
 /* ORDER StatusCode (base/status.h) */
@@ -44,16 +44,37 @@ static void padTo(Text *text, size_t lineStart, size_t column)
     textAppendFormat(text, "%*s", length + 2 <= column ? (int)(column - length) : 2, "");
 }
 
-/* The explanations of a command's examples stand below each other, as far left as they can. */
+/* Append words from the column on that is reached, in lines of up to PAGE_WIDTH that all begin there. */
+static void appendWrapped(Text *text, const char *words, size_t column)
+{
+    size_t at = column;
+    for (const char *word = words; *word != '\0';) {
+        size_t length = strcspn(word, " ");
+        if (at > column && at + 1 + length > PAGE_WIDTH) {
+            textAppendFormat(text, "\n%*s", (int)column, "");
+            at = column;
+        }
+        if (at > column) {
+            textAppend(text, " ");
+            at++;
+        }
+        textAppendBytes(text, word, length);
+        at += length;
+        word += length + (word[length] == ' ');
+    }
+    textAppend(text, "\n");
+}
+
+/* The explanations of a command's examples stand below each other. */
 static size_t exampleColumn(const char *examples)
 {
     size_t column = 0;
     for (const char *line = examples; *line != '\0'; line = strchr(line, '\n') + 1) {
-        size_t needed = 2 + strcspn(line, "\t") + 3;
+        size_t needed = 2 + strcspn(line, "\t") + 2;
         if (needed > column)
             column = needed;
     }
-    return column < EXAMPLE_COLUMN ? column : EXAMPLE_COLUMN;
+    return column;
 }
 
 static void appendExamples(Text *text, const char *examples)
@@ -80,7 +101,24 @@ static void appendOption(Text *text, const Option *option)
         start = text->length;
     }
     padTo(text, start, OPTION_COLUMN);
-    textAppendFormat(text, "%s\n", option->help);
+    appendWrapped(text, option->help, OPTION_COLUMN);
+}
+
+/* Append a description: wrapped paragraphs, and lines that begin with spaces as they are. */
+static void appendDescription(Text *text, const char *description)
+{
+    for (const char *line = description; *line != '\0';) {
+        size_t length = strcspn(line, "\n");
+        Text paragraph = {0};
+        textAppendBytes(&paragraph, line, length);
+        if (*line == ' ')
+            textAppendFormat(text, "%s\n", textString(&paragraph));
+        else
+            appendWrapped(text, textString(&paragraph), 0);
+        text->failed = text->failed || paragraph.failed;
+        textFree(&paragraph);
+        line += length + (line[length] == '\n');
+    }
 }
 
 static void writeProgramHelp(Text *text)
@@ -109,8 +147,10 @@ void writeHelp(const Command *command, Text *text)
         return;
     }
     appendExamples(text, command->examples);
-    textAppendFormat(text, "\nUsage: eclairage %s [OPTION]...%s%s\n\n%s\n\nOptions:\n", command->name,
-                     *command->operands != '\0' ? " " : "", command->operands, command->description);
+    textAppendFormat(text, "\nUsage: eclairage %s [OPTION]...%s%s\n\n", command->name,
+                     *command->operands != '\0' ? " " : "", command->operands);
+    appendDescription(text, command->description);
+    textAppend(text, "\nOptions:\n");
     for (size_t i = 0; i < OPTION_COUNT; i++)
         if ((OPTIONS[i].commands & command->bit) != 0)
             appendOption(text, &OPTIONS[i]);

@@ -88,7 +88,7 @@ static Status readChoice(const Option *option, const char *given, const char *va
     if (option->later != NULL && strcmp(value, option->later) == 0)
         status = statusError(STATUS_USAGE, "%s %s does not exist yet in this version; use %s", given, value,
                              textString(&choices));
-    else if (suggestion.best != NULL)
+    else if (suggestion.best != NULL && !(*value >= '0' && *value <= '9'))
         status = statusError(STATUS_USAGE, "%s must be %s, not '%s'; did you mean '%s'?", given,
                              textString(&choices), value, suggestion.best);
     else

@@ -1,6 +1,7 @@
 /* scene_input.c - the scene that a command works on; see scene_input.h. */
 #include "cli/scene_input.h"
 
+#include "base/files.h"
 #include "base/threads.h"
 #include "cli/terminal.h"
 #include "scene/load.h"
@@ -112,6 +113,20 @@ Status refuseOverwriting(const char *output, const char *input)
         return statusError(STATUS_USAGE, "-o %s would overwrite %s itself: choose another name", output,
                            input);
     return statusOk();
+}
+
+Status probeOutput(const char *output)
+{
+    /* Only regular files; opening a pipe or a device would be noticed at its other end. */
+    struct stat file;
+    if (strcmp(output, "-") == 0 ||
+        (stat(output, &file) == 0 && !S_ISREG(file.st_mode) && !S_ISDIR(file.st_mode)))
+        return statusOk();
+    OutputFile probe;
+    Status status = openOutput(&probe, output);
+    if (statusIsOk(&status))
+        abandonOutput(&probe);
+    return status;
 }
 
 void warnOfNonFinitePixels(const Framebuffer *framebuffer, const char *path, Text *messages)

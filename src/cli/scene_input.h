@@ -26,6 +26,10 @@ bool isSameFile(const char *a, const char *b);
 /* STATUS_USAGE when writing to output would destroy input. output may be NULL. */
 Status refuseOverwriting(const char *output, const char *input);
 
+/* Whether output could be written, found out before the long work and not after it: what can be known
+ * without touching an existing file. */
+Status probeOutput(const char *output);
+
 /* Append a warning when the picture has pixels that a file cannot hold. */
 void warnOfNonFinitePixels(const Framebuffer *framebuffer, const char *path, Text *messages);
 

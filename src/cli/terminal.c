@@ -79,6 +79,11 @@ double secondsNow(void)
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
+double secondsSince(double start)
+{
+    return round((secondsNow() - start) * 1e6) / 1e6;
+}
+
 void beginProgress(const char *name)
 {
     pthread_mutex_lock(&progress.lock);

@@ -54,4 +54,7 @@ void endProgress(void);
 /* Seconds since some moment in the past; never goes backwards. */
 double secondsNow(void);
 
+/* Seconds since secondsNow() was start, in whole microseconds. */
+double secondsSince(double start);
+
 #endif
