@@ -24,13 +24,19 @@ typedef struct SceneResult {
     const char *command; /* reproduces this scene's comparison */
 } SceneResult;
 
-/* Append the fields of `diff --json` (interfaces.md) to an open object. */
+/* Append the measured fields of `diff --json`, "width" to "flip" in that order, to an open object; NAN is
+ * null, worst_pixel.channel is 0, 1 or 2. diff ends with "pass", then jsonReasons. */
 void jsonMetrics(JsonWriter *json, const Metrics *metrics);
+
+/* Append "reasons", an array that is empty for a pass, to an open object. */
+void jsonReasons(JsonWriter *json, const Verdict *verdict);
 
 /* The whole of `compare --json` and of results.json. */
 void writeResultsJson(const SceneResult *results, size_t count, Text *text);
 
-/* The page: folder/index.html, which embeds the pictures from their files in folder. */
+/* Write the page, folder/index.html, which embeds the pictures from their files in folder. command is the
+ * whole run's. STATUS_IO when a picture cannot be read or the page not written; STATUS_INTERRUPTED when
+ * cancelled; the old page is then as it was. Pictures of a scene over 192 MiB in all are linked instead. */
 Status writeReport(const char *folder, const SceneResult *results, size_t count, const char *command);
 
 /* The results in words, for the terminal: a line a scene, then the verdict. */
