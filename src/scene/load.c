@@ -19,6 +19,12 @@ enum {
     LARGEST_FILE = 1 << 30 /* bytes */
 };
 
+/* Whether broken YAML comes right behind a word: then the word is part of what is broken. */
+static bool isSuspect(YamlReader *yaml, const YamlNode *node)
+{
+    return node->kind == NODE_SCALAR && peekYaml(yaml) == NEXT_FAILED;
+}
+
 /* Read the items of the list that comes next, each one's memory being used again for the next one's. */
 static void readItems(SceneReader *reader, YamlReader *yaml, const FormatKinds *kinds)
 {
@@ -28,7 +34,7 @@ static void readItems(SceneReader *reader, YamlReader *yaml, const FormatKinds *
         ArenaMark mark = arenaMark(&yaml->arena);
         size_t anchors = yaml->anchorNames.count;
         const YamlNode *item = readYamlNode(yaml);
-        if (item == NULL)
+        if (item == NULL || isSuspect(yaml, item))
             return;
         readKindItem(reader, kinds, item);
 
@@ -54,7 +60,7 @@ static void readSection(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
         return;
     }
     const YamlNode *value = readYamlNode(yaml);
-    if (key != NULL && value != NULL)
+    if (key != NULL && value != NULL && !isSuspect(yaml, value))
         readValue(reader, given, number, value, reader->scene);
 }
 
@@ -70,7 +76,7 @@ static void readRoot(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
         if (isEmpty)
             reportError(reader, place, "a scene begins, for example, with objects:", "the file is empty");
         const YamlNode *root = isEmpty ? NULL : readYamlNode(yaml);
-        if (root != NULL) {
+        if (root != NULL && !isSuspect(yaml, root)) {
             Text what = {0};
             textAppendNode(&what, root);
             reportError(reader, root->place, "write sections such as camera: and objects:",

@@ -40,6 +40,8 @@ void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, con
     if (value->kind == NODE_SCALAR && value->count == 0)
         textAppend(&hint, key->type == FORMAT_KINDS ? "write [] for an empty list"
                                                     : "write its value behind the ':', or leave the key out");
+    else if (key->type == FORMAT_MAPPING && value->kind == NODE_SCALAR && strchr(value->text, ':') != NULL)
+        textAppend(&hint, "put a space behind the ':'");
     else if (key->type == FORMAT_KINDS && value->kind == NODE_MAPPING)
         textAppendFormat(&hint, "begin each %s with '- '", key->kinds->noun);
     reportError(reader, place, hint.length > 0 ? hint.data : NULL, "%s", textString(&message));
@@ -144,8 +146,11 @@ static bool readThree(SceneReader *reader, const FormatKey *key, const char *con
                       double numbers[3])
 {
     if (list->count != 3) {
-        reportError(reader, place, NULL, "'%s' needs 3 numbers [%s, %s, %s], but has %zu", key->name,
-                    components[0], components[1], components[2], list->count);
+        bool noCommas =
+            list->count == 1 && list->first->kind == NODE_SCALAR && strchr(list->first->text, ' ') != NULL;
+        reportError(reader, place, noCommas ? "put commas between the numbers" : NULL,
+                    "'%s' needs 3 numbers [%s, %s, %s], but has %zu", key->name, components[0], components[1],
+                    components[2], list->count);
         return false;
     }
     bool right = true;

@@ -114,12 +114,19 @@ size_t reportUnknownKey(SceneReader *reader, const FormatMapping *format, const 
             reader, keyNode->place,
             "write the keys out, or give the whole mapping an anchor (&name) and use it by its alias (*name)",
             "the merge key '<<' is not part of the scene format");
-        return;
+        return formatKeyCount(format);
     }
     Suggestion suggestion = {.word = keyNode->text, .length = keyNode->count};
     for (size_t i = 0; i < formatKeyCount(format); i++)
         tryCandidate(&suggestion, formatKey(format, i)->name);
-    if (suggestion.best != NULL || format != &sceneFormat || !appendRightPlace(&hint, keyNode)) {
+
+    /* "fov 60" and "fov:60" are a key with its value. */
+    size_t wordLength = strcspn(keyNode->text, " :");
+    size_t key = findFormatKey(format, keyNode->text, wordLength);
+    if (key < formatKeyCount(format)) {
+        suggestion.best = formatKey(format, key)->name;
+        textAppendFormat(&hint, "write it as %s: value, with a space behind the ':'", suggestion.best);
+    } else if (suggestion.best != NULL || format != &sceneFormat || !appendRightPlace(&hint, keyNode)) {
         char what[80];
         snprintf(what, sizeof what, "the keys of '%s' are", format->name);
         appendNames(&hint, &suggestion, format == &sceneFormat ? "the sections of a scene are" : what);

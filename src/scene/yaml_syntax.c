@@ -40,8 +40,6 @@ static const SyntaxError SYNTAX_ERRORS[] = {
      "write it as key: value"},
     {NULL, "block sequence entries are not allowed", false, "a list item '-' cannot begin here",
      "put it on a line of its own, or write the list as [a, b]"},
-    {NULL, "mapping values are not allowed", false, "a ':' cannot stand here",
-     "check the indentation of this line, or put one 'key: value' on each line"},
     {NULL, "mapping keys are not allowed", false, "a '?' cannot stand here", NULL},
     {"an anchor", "did not find expected alphabetic", true, "a name is missing behind this '&'",
      "an anchor is written &name"},
@@ -51,9 +49,9 @@ static const SyntaxError SYNTAX_ERRORS[] = {
     {"block scalar", "found a tab", false, "a tab is used for indentation", "indent with spaces"},
     {"block scalar", "", false, "this block of text is not written as YAML wants it", NULL},
     {"plain scalar", "found unexpected ':'", false, "a ':' cannot stand here", "put a space behind it"},
-    {"a directive", "", false, "a line that begins with '%' is a YAML directive, and this is not one of them",
+    {"a directive", "", true, "a line that begins with '%' is a YAML directive, and this is not one of them",
      "put the text in quotes, or remove the line"},
-    {"directive", "", false, "this YAML directive is not understood", "remove the line"},
+    {"directive", "", true, "this YAML directive is not understood", "remove the line"},
     {NULL, "found incompatible YAML document", false, "this version of YAML is not known", "remove the line"},
     {NULL, "found duplicate %", false, "this directive is given twice", "remove one of the two lines"},
     {"a tag", "", false, "tags, the words that begin with '!', have no meaning in a scene", "remove it"},
@@ -84,14 +82,49 @@ static char characterAt(SourceText *source, Place place)
     return s < end ? *s : '\0';
 }
 
+static bool startsWith(const char *text, const char *start)
+{
+    return strncmp(text, start, strlen(start)) == 0;
+}
+
 static bool endsWith(const char *text, const char *end)
 {
     size_t textLength = strlen(text), endLength = strlen(end);
     return textLength >= endLength && strcmp(text + textLength - endLength, end) == 0;
 }
 
+static void add(SourceText *source, Diagnostics *diagnostics, Place place, const char *hint,
+                const char *message)
+{
+    addDiagnostic(diagnostics, source, SEVERITY_ERROR, place, hint, message);
+}
+
+/* Whether the place is behind all that is written. */
+static bool isAtEnd(SourceText *source, Place place)
+{
+    size_t length;
+    sourceLine(source, place.line, &length);
+    return (size_t)place.line >= source->lineCount && characterAt(source, place) == '\0';
+}
+
+/* The first character of a line that is not blank. */
+static Place startOfLine(SourceText *source, int line)
+{
+    size_t length, blanks = 0;
+    const char *s = sourceLine(source, line, &length);
+    while (blanks < length && (s[blanks] == ' ' || s[blanks] == '\t'))
+        blanks++;
+    return (Place){line, (int)blanks + 1, 1};
+}
+
+/* Whether only blanks come before the place in its line. */
+static bool isFirstInLine(SourceText *source, Place place)
+{
+    return place.column <= startOfLine(source, place.line).column;
+}
+
 /* A list or mapping in brackets that goes wrong: a comma is missing, or the closing bracket. */
-static void reportFlow(SourceText *source, Diagnostics *diagnostics, Place opening, Place problem)
+static void reportBrackets(SourceText *source, Diagnostics *diagnostics, Place opening, Place problem)
 {
     char open = characterAt(source, opening), found = characterAt(source, problem);
     char close = open == '{' ? '}' : ']';
@@ -100,7 +133,7 @@ static void reportFlow(SourceText *source, Diagnostics *diagnostics, Place openi
     if (opening.line == problem.line && found != '\0' && found != '#' && !mismatch) {
         snprintf(message, sizeof message, "a ',' or the closing '%c' is missing before this", close);
         snprintf(hint, sizeof hint, "the '%c' opens in column %d", open, opening.column);
-        addDiagnostic(diagnostics, source, SEVERITY_ERROR, problem, hint, message);
+        add(source, diagnostics, problem, hint, message);
         return;
     }
     if (mismatch)
@@ -110,42 +143,95 @@ static void reportFlow(SourceText *source, Diagnostics *diagnostics, Place openi
     else
         snprintf(message, sizeof message, "the '%c' that opens here is never closed", open);
     snprintf(hint, sizeof hint, "close it with '%c'", close);
-    addDiagnostic(diagnostics, source, SEVERITY_ERROR, opening, hint, message);
+    add(source, diagnostics, opening, hint, message);
 }
 
-void reportSyntaxError(const yaml_parser_t *parser, SourceText *source, Diagnostics *diagnostics)
+/* Something stands where a mapping wants its next key. */
+static void reportNoKey(SourceText *source, Diagnostics *diagnostics, Place place)
 {
-    const char *context = parser->context != NULL ? parser->context : "";
-    const char *problem = parser->problem != NULL ? parser->problem : "it cannot be read";
-    Place contextPlace = placeOfMark(&parser->context_mark);
-    Place place = placeOfMark(&parser->problem_mark);
-    if (endsWith(context, "flow sequence") || endsWith(context, "flow mapping")) {
-        reportFlow(source, diagnostics, contextPlace, place);
-        return;
-    }
-
-    /* A character that begins nothing: a tab, or one that YAML keeps for itself. */
     char found = characterAt(source, place);
-    if (strncmp(problem, "found character that cannot start", 33) == 0) {
+    char message[80];
+    if (found == ']' || found == '}') {
+        snprintf(message, sizeof message, "this '%c' closes nothing", found);
+        add(source, diagnostics, place, "remove it, or add the bracket that opens", message);
+    } else if (isFirstInLine(source, place)) {
+        add(source, diagnostics, place, INDENT_HINT, "this does not fit with the lines above");
+    } else {
+        add(source, diagnostics, place, "begin a new line, or put the whole text in quotes",
+            "nothing may follow the value in this line");
+    }
+}
+
+/* A ':' where none can be. When the text before it began in an earlier line, that is where it goes wrong:
+ * either that line has no ':' of its own, or this one is indented so far that it continues the text. */
+static void reportColon(SourceText *source, Diagnostics *diagnostics, const SyntaxContext *context,
+                        Place place)
+{
+    bool continued =
+        context->afterText && context->text.line < place.line && context->textEndLine == place.line;
+    if (continued && isFirstInLine(source, context->text))
+        add(source, diagnostics, context->text, "write it as key: value, with a space behind the ':'",
+            "a ':' is missing behind this key");
+    else if (continued)
+        add(source, diagnostics, startOfLine(source, place.line), INDENT_HINT,
+            "this line is indented too far");
+    else
+        add(source, diagnostics, place,
+            "put one 'key: value' on each line, and a text with ': ' in it in quotes",
+            "a ':' cannot stand here");
+}
+
+/* The errors that need more than a row in the table; false when it is none of them. */
+static bool reportSpecialError(const yaml_parser_t *parser, const SyntaxContext *context, SourceText *source,
+                               Diagnostics *diagnostics, Place place)
+{
+    const char *what = parser->context != NULL ? parser->context : "";
+    const char *problem = parser->problem;
+    bool inQuotes = endsWith(what, "quoted scalar");
+    if (endsWith(what, "flow sequence") || endsWith(what, "flow mapping")) {
+        reportBrackets(source, diagnostics, placeOfMark(&parser->context_mark), place);
+    } else if (context->inBrackets && !inQuotes && isAtEnd(source, place)) {
+        reportBrackets(source, diagnostics, context->opening, place);
+    } else if (endsWith(what, "block mapping") && startsWith(problem, "did not find expected key")) {
+        reportNoKey(source, diagnostics, place);
+    } else if (startsWith(problem, "mapping values are not allowed")) {
+        reportColon(source, diagnostics, context, place);
+    } else if (startsWith(problem, "found character that cannot start")) {
+        char found = characterAt(source, place);
         char message[80];
         snprintf(message, sizeof message, "a value cannot begin with '%c'", found);
         if (found == '\t')
-            addDiagnostic(diagnostics, source, SEVERITY_ERROR, place, "indent with spaces",
-                          "a tab is used for indentation");
+            add(source, diagnostics, place, "indent with spaces", "a tab is used for indentation");
         else
-            addDiagnostic(diagnostics, source, SEVERITY_ERROR, place, "put the text in quotes", message);
+            add(source, diagnostics, place, "put the text in quotes", message);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void reportSyntaxError(const yaml_parser_t *parser, const SyntaxContext *context, SourceText *source,
+                       Diagnostics *diagnostics)
+{
+    Place place = placeOfMark(&parser->problem_mark);
+    const char *what = parser->context != NULL ? parser->context : "";
+    const char *problem = parser->problem;
+    if (problem == NULL) {
+        add(source, diagnostics, place, NULL, "this is not YAML");
         return;
     }
+    if (reportSpecialError(parser, context, source, diagnostics, place))
+        return;
     for (size_t i = 0; i < sizeof SYNTAX_ERRORS / sizeof *SYNTAX_ERRORS; i++) {
         const SyntaxError *error = &SYNTAX_ERRORS[i];
-        if ((error->context == NULL || endsWith(context, error->context)) &&
-            strncmp(problem, error->problem, strlen(error->problem)) == 0) {
-            addDiagnostic(diagnostics, source, SEVERITY_ERROR, error->atContext ? contextPlace : place,
-                          error->hint, error->message);
+        if ((error->context == NULL || endsWith(what, error->context)) &&
+            startsWith(problem, error->problem)) {
+            add(source, diagnostics, error->atContext ? placeOfMark(&parser->context_mark) : place,
+                error->hint, error->message);
             return;
         }
     }
     char message[200];
     snprintf(message, sizeof message, "this is not YAML: %s", problem);
-    addDiagnostic(diagnostics, source, SEVERITY_ERROR, place, NULL, message);
+    add(source, diagnostics, place, NULL, message);
 }

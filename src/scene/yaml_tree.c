@@ -2,7 +2,6 @@
 #include "scene/yaml_tree.h"
 
 #include "base/cancel.h"
-#include "scene/yaml_syntax.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +31,27 @@ static void failOutOfMemory(YamlReader *reader)
     reader->failed = true;
 }
 
+/* Remember the last text without quotes. */
+static void noteText(YamlReader *reader)
+{
+    const yaml_event_t *event = &reader->event;
+    reader->syntax.afterText = event->type == YAML_SCALAR_EVENT && event->data.scalar.length > 0 &&
+                               event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    if (!reader->syntax.afterText)
+        return;
+    reader->syntax.text = placeOfEvent(event);
+    reader->syntax.textEndLine = (int)event->end_mark.line + 1;
+}
+
+static void reportBrokenYaml(YamlReader *reader)
+{
+    SyntaxContext context = reader->syntax;
+    context.inBrackets = reader->depth > 0 && reader->inBrackets[reader->depth - 1];
+    if (reader->depth > 0)
+        context.opening = reader->openings[reader->depth - 1];
+    reportSyntaxError(&reader->parser, &context, reader->source, reader->diagnostics);
+}
+
 /* Make reader->event the next event; false when there is none. */
 static bool pullEvent(YamlReader *reader)
 {
@@ -46,13 +66,14 @@ static bool pullEvent(YamlReader *reader)
     }
     if (yaml_parser_parse(&reader->parser, &reader->event)) {
         reader->hasEvent = true;
+        noteText(reader);
         return true;
     }
     reader->failed = true;
     if (reader->parser.error == YAML_MEMORY_ERROR)
         reader->outOfMemory = true;
     else
-        reportSyntaxError(&reader->parser, reader->source, reader->diagnostics);
+        reportBrokenYaml(reader);
     return false;
 }
 
@@ -222,7 +243,12 @@ static void refuseTag(YamlReader *reader)
 /* Count one level more; false when there are too many. */
 static bool descend(YamlReader *reader)
 {
+    const yaml_event_t *event = &reader->event;
     if (reader->depth < YAML_MAX_DEPTH) {
+        reader->openings[reader->depth] = placeOfEvent(event);
+        reader->inBrackets[reader->depth] = event->type == YAML_SEQUENCE_START_EVENT
+                                                ? event->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE
+                                                : event->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE;
         reader->depth++;
         return true;
     }

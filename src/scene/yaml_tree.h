@@ -16,6 +16,7 @@
 #include "scene/diagnostics.h"
 #include "scene/name_table.h"
 #include "scene/source_text.h"
+#include "scene/yaml_syntax.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -67,6 +68,9 @@ typedef struct YamlReader {
     yaml_event_t event; /* the next one, when hasEvent */
     bool hasEvent;
     int depth;
+    bool inBrackets[YAML_MAX_DEPTH]; /* of the lists and mappings being read, from the root */
+    Place openings[YAML_MAX_DEPTH];
+    SyntaxContext syntax; /* its part about the last text */
     uint64_t nodeCount, aliasNodes;
     NameTable anchorNames;
     YamlAnchor *anchors;
