@@ -7,32 +7,16 @@
  */
 #include "compare/metrics.h"
 
-#include "base/text.h"
+#include "compare/rounding.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 enum {
     FEWEST_DIGITS = 3,
-    MOST_DIGITS = 17
+    MOST_DIGITS = 15
 };
-
-/* The value with so many significant digits, and no zeros behind them. */
-static void formatDigits(char text[NUMBER_TEXT_SIZE], double value, int digits)
-{
-    if (!isfinite(value) || value == 0) {
-        formatDouble(text, value);
-        return;
-    }
-    /* Round to an integer of that many digits, then let the shortest text of it be found: the result is
-     * the double nearest to a short decimal. */
-    int exponent = (int)floor(log10(fabs(value))) + 1 - digits;
-    double scale = pow(10, abs(exponent));
-    double rounded = exponent < 0 ? round(value * scale) / scale : round(value / scale) * scale;
-    formatDouble(text, digits < 15 && isfinite(scale) ? rounded : value);
-}
 
 /* Two different numbers as two different texts, short where that is enough. */
 static void formatPair(char valueText[NUMBER_TEXT_SIZE], double value, char limitText[NUMBER_TEXT_SIZE],
@@ -40,12 +24,13 @@ static void formatPair(char valueText[NUMBER_TEXT_SIZE], double value, char limi
 {
     formatDouble(limitText, limit);
     for (int digits = FEWEST_DIGITS; digits <= MOST_DIGITS; digits++) {
-        formatDigits(valueText, value, digits);
+        formatRounded(valueText, value, digits);
         /* Take it when its reader sees the value on the right side of the limit. */
         double read = parseDouble(valueText, NULL);
         if ((read > limit) == (value > limit) && (read < limit) == (value < limit))
             return;
     }
+    formatDouble(valueText, value);
 }
 
 static void addReason(Verdict *verdict, const char *format, ...) __attribute__((format(printf, 2, 3)));

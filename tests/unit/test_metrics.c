@@ -182,7 +182,7 @@ static void failIsExactAtEveryStep(void **unused)
     for (int bitDepth = 8; bitDepth <= 16; bitDepth += 8) {
         Image a = makeImage(1, 1, bitDepth, ENCODING_SRGB), b = makeImage(1, 1, bitDepth, ENCODING_SRGB);
         unsigned largest = imageMaxSample(&a);
-        for (unsigned step = 0; step <= largest; step += bitDepth == 8 ? 1 : 61) {
+        for (unsigned step = 0; step <= largest; step += bitDepth == 8 ? 1 : 977) {
             b.samples[1] = (uint16_t)step;
             char text[NUMBER_TEXT_SIZE];
             double fail = parseDouble(formatDouble(text, step / (double)largest), NULL);
