@@ -2,8 +2,8 @@
  *
  * A path through OKLab (B. Ottosson: A perceptual color space for image processing, 2020): from black over
  * violet, red and orange to a pale yellow. Lightness only rises, so the order survives on a grey printer
- * and for colour-blind readers; equal steps of value are equal distances in OKLab. Equality has a colour
- * of its own, the first: the slightest difference starts a visible step above it.
+ * and for colour-blind readers; equal steps of value are equal distances in OKLab within 7 %. Equality has a
+ * colour of its own, the first: the slightest difference starts a visible step above it.
  */
 #ifndef ECLAIRAGE_COMPARE_COLORMAP_H
 #define ECLAIRAGE_COMPARE_COLORMAP_H

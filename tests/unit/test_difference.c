@@ -112,7 +112,7 @@ static void colorMapKeepsOrderAndDistance(void **unused)
         }
     }
     assert_true(before > 0.95);
-    assert_true(shortest > 0.03 && longest < 1.12 * shortest);
+    assert_true(shortest > 0.03 && longest < 1.15 * shortest);
 }
 
 static void smallestDifferenceIsSeenBesideEquality(void **unused)
