@@ -1,6 +1,6 @@
 /* plane.c - a flat surface without end; see plane.h.
  *
- * A point o + t d of the ray is on the plane when n.(o + t d - p) = 0, so t = n.(p - o) / n.d.
+ * A point o + t d of the ray is on the plane when n.(o + t d) = n.p, so t = (n.p - n.o) / n.d.
  */
 #include "shapes/plane.h"
 
@@ -17,7 +17,7 @@ static double planeDistance(const Object *object, const Ray *ray)
     double slope = dot(plane->normal, ray->direction);
     if (slope == 0)
         return INFINITY;
-    double t = dot(plane->normal, subVectors(plane->point, ray->origin)) / slope;
+    double t = (dot(plane->normal, plane->point) - dot(plane->normal, ray->origin)) / slope;
     return t > 0 ? t : INFINITY;
 }
 
