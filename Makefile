@@ -140,7 +140,7 @@ demo:
 	@$(MAKE) --no-print-directory $(PARALLEL) all
 	@status=0; \
 	$(BUILD)/eclairage compare scenes/course/*.yaml scenes/gallery/*.yaml --out $(BUILD)/report || status=$$?; \
-	if [ -f $(BUILD)/report/index.html ]; then printf '\nThe report: %s\n' $(BUILD)/report/index.html; fi; \
+	if [ -f $(BUILD)/report/index.html ]; then echo 'Open $(BUILD)/report/index.html in a browser.'; fi; \
 	exit $$status
 
 ## test: install what is missing and run all tests; SUITES='unit cli' runs only those
