@@ -72,9 +72,10 @@ INSTALLER = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' tools/install-dependencies.sh
 LIBRARY_SOURCES := $(filter-out src/main.c,$(wildcard src/*.c)) \
 	$(wildcard src/base/*.c src/image/*.c src/scene/*.c src/shapes/*.c povray/*.c compare/*.c)
 PROGRAM_SOURCES := src/main.c $(wildcard src/cli/*.c)
-# The headers a user of the library may include; those of the command line stay with it.
-PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/image/*.h src/scene/*.h src/shapes/*.h \
-	povray/*.h compare/*.h)
+# The headers a user of the library includes, and the ones they bring; the others are its own affair.
+PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/shapes/*.h) src/image/image.h \
+	src/scene/load.h src/scene/diagnostics.h src/scene/source_text.h povray/export.h povray/run.h \
+	compare/metrics.h compare/difference.h compare/report.h
 # Files in tests/unit that are not test programs are helpers, linked into each of them.
 UNIT_SOURCES := $(wildcard tests/unit/test_*.c)
 UNIT_HELPERS := $(filter-out $(UNIT_SOURCES),$(wildcard tests/unit/*.c))
