@@ -122,7 +122,8 @@ Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnost
     EncodingFault fault;
     bool outOfMemory = false, interrupted = false;
     if (!checkEncoding(&source, &fault)) {
-        reportError(&reader, fault.place, fault.hint, "%s", fault.message);
+        addDiagnostic(&found, fault.isText ? &source : NULL, SEVERITY_ERROR, fault.place, fault.hint,
+                      fault.message);
     } else {
         YamlReader yaml;
         GivenKeys given;

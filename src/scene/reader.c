@@ -99,7 +99,7 @@ static bool appendRightPlace(Text *hint, const YamlNode *keyNode)
         if (kind != NULL)
             textAppendFormat(hint, "write it as an item of '%s': - %s: {...}", section->name, kind->name);
         else if (isInside)
-            textAppendFormat(hint, "it belongs into the section '%s'", section->name);
+            textAppendFormat(hint, "it belongs in the section '%s'", section->name);
         if (kind != NULL || isInside)
             return true;
     }
@@ -356,7 +356,8 @@ void readKindItem(SceneReader *reader, const FormatKinds *kinds, const YamlNode 
         Text names = {0};
         for (size_t i = 0; i < kinds->count; i++)
             tryCandidate(&suggestion, kinds->kinds[i]->name);
-        appendNames(&names, &suggestion, "known is");
+        snprintf(hint, sizeof hint, "the kinds of %s are", kinds->noun);
+        appendNames(&names, &suggestion, hint);
         for (size_t i = 0; suggestion.best == NULL && i < kinds->count; i++)
             textAppendFormat(&names, "%s%s", i > 0 ? ", " : "", kinds->kinds[i]->name);
         reportError(reader, keyNode->place, textString(&names), "unknown %s '%s'", kinds->noun,

@@ -182,7 +182,8 @@ static bool isUtf16(const SourceText *source)
 bool checkEncoding(const SourceText *source, EncodingFault *fault)
 {
     fault->place = (Place){1, 1, 1};
-    if (isUtf16(source)) {
+    fault->isText = !isUtf16(source);
+    if (!fault->isText) {
         snprintf(fault->message, sizeof fault->message, "the file is saved as UTF-16, not as UTF-8");
         fault->hint = "save it again with the encoding UTF-8";
         return false;

@@ -47,6 +47,7 @@ int displayWidth(uint32_t character);
 /* Why a text cannot be YAML in UTF-8, and where. */
 typedef struct EncodingFault {
     Place place;
+    bool isText; /* the line can be shown */
     const char *hint;
     char message[160];
 } EncodingFault;

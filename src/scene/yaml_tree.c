@@ -3,6 +3,7 @@
 
 #include "base/cancel.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -213,8 +214,8 @@ static void followAlias(YamlReader *reader, YamlNode *node)
                  YAML_MAX_DEPTH);
         fail(reader, node->place, NULL, message);
     } else if (reader->aliasNodes > ALIAS_BUDGET + ALIAS_BUDGET_PER_NODE * reader->nodeCount) {
-        snprintf(message, sizeof message, "aliases blow this file up to more than %lu values",
-                 (unsigned long)(reader->aliasNodes + reader->nodeCount - node->target->size));
+        snprintf(message, sizeof message, "aliases blow this file up to more than %" PRIu64 " values",
+                 ALIAS_BUDGET + ALIAS_BUDGET_PER_NODE * reader->nodeCount);
         fail(reader, node->place, "use fewer aliases of aliases", message);
     }
 }
@@ -233,9 +234,14 @@ static void refuseTag(YamlReader *reader)
         tag = event->data.mapping_start.tag;
     if (tag == NULL)
         return;
+    /* Show a core tag as it is usually written. */
+    static const char core[] = "tag:yaml.org,2002:";
+    const char *text = (const char *)tag;
+    bool isCore = strncmp(text, core, sizeof core - 1) == 0;
+    text += isCore ? sizeof core - 1 : 0;
     char message[QUOTE_SIZE + 80];
-    snprintf(message, sizeof message, "the tag '%s' has no meaning in a scene",
-             quoteBytes((const char *)tag, strlen((const char *)tag)).text);
+    snprintf(message, sizeof message, "the tag '%s%s' has no meaning in a scene", isCore ? "!!" : "",
+             quoteBytes(text, strlen(text)).text);
     addDiagnostic(reader->diagnostics, reader->source, SEVERITY_ERROR, placeOfEvent(event),
                   "remove the word that begins with '!'", message);
 }
