@@ -29,6 +29,14 @@ static bool isControl(const unsigned char *s)
     return s[0] < 0x20 || s[0] == 0x7F || (s[0] == 0xC2 && s[1] < 0xA0);
 }
 
+/* Whether a valid character changes the direction of the text around it: U+202A to U+202E, U+2066 to U+2069
+ * (E2 80 AA to AE, E2 81 A6 to A9). */
+static bool turnsDirection(const unsigned char *s)
+{
+    return s[0] == 0xE2 &&
+           ((s[1] == 0x80 && s[2] >= 0xAA && s[2] <= 0xAE) || (s[1] == 0x81 && s[2] >= 0xA6 && s[2] <= 0xA9));
+}
+
 /* The reference for a character with a meaning in HTML, or NULL. */
 static const char *htmlReference(unsigned char c)
 {
@@ -54,7 +62,7 @@ void textAppendHtml(Text *html, const char *text)
         size_t length = characterLength(s);
         const char *reference = htmlReference(*s);
         bool layout = *s == '\t' || *s == '\n';
-        if (length == 0 || (isControl(s) && !layout))
+        if (length == 0 || (isControl(s) && !layout) || turnsDirection(s))
             textAppend(html, replacement);
         else if (reference != NULL)
             textAppend(html, reference);
@@ -62,14 +70,6 @@ void textAppendHtml(Text *html, const char *text)
             textAppendBytes(html, s, length);
         s += length == 0 ? 1 : length;
     }
-}
-
-/* Whether a valid character changes the direction of the text around it: U+202A to U+202E, U+2066 to U+2069
- * (E2 80 AA to AE, E2 81 A6 to A9). */
-static bool turnsDirection(const unsigned char *s)
-{
-    return s[0] == 0xE2 &&
-           ((s[1] == 0x80 && s[2] >= 0xAA && s[2] <= 0xAE) || (s[1] == 0x81 && s[2] >= 0xA6 && s[2] <= 0xA9));
 }
 
 size_t textAppendPlain(Text *plain, const char *text)

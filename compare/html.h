@@ -12,8 +12,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* Append text as HTML text: & < > " ' become references; bytes that are not UTF-8, and control characters
- * other than tab and newline, become U+FFFD. NULL is the empty text. */
+/* Append text as HTML text: & < > " ' become references; bytes that are not UTF-8, control characters other
+ * than tab and newline, and those that turn the text's direction become U+FFFD. NULL is the empty text. */
 void textAppendHtml(Text *html, const char *text);
 
 /* Append a file's name as a relative address: "./" and the name, percent-encoded except for RFC 3986's

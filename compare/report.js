@@ -221,6 +221,7 @@ class Viewer {
     element.style.left = `${this.x + (pixel.x + 0.5) * this.scale}px`;
     element.style.top = `${this.y + (pixel.y + 0.5) * this.scale}px`;
     if (side > 0) element.style.width = element.style.height = `${side}px`;
+    element.classList.toggle('large', side > 20);
   }
 
   /* Scroll a zoomed view until the probe is inside. */
@@ -382,7 +383,7 @@ class Viewer {
   /* --- The histogram --- */
 
   drawChart() {
-    const aside = this.section.querySelector('.aside');
+    const place = this.section.querySelector('.chart-place');
     const { counts, largest } = countDifferences(this.pictures.ours, this.pictures.povray);
 
     /* Make one bar a step where there are few, else one for each power of two. */
@@ -396,7 +397,7 @@ class Viewer {
     }
 
     /* Lay the bars out; heights are logarithmic, and a single pixel can still be seen. */
-    const width = 520, height = 226, base = 160, top = 22;
+    const tilt = bins.length > 7, width = 520, height = tilt ? 226 : 182, base = 160, top = 22;
     const slot = width / bins.length, most = Math.log10(this.width * this.height + 1) || 1;
     const limit = Math.floor(this.fail * this.max + 1e-9);
     const parts = [`<line class="axis" x1="0" x2="${width}" y1="${base}" y2="${base}"/>`];
@@ -406,7 +407,6 @@ class Viewer {
       parts.push(`<rect class="${outside ? 'outside' : 'inside'}" x="${x + slot * 0.12}" width="${slot * 0.76}" y="${base - tall}" height="${tall}" rx="2"/>`);
       if (outside && tall > 6) for (let h = 6; h < tall; h += 7) parts.push(`<line class="outside-hatch" x1="${x + slot * 0.12}" x2="${x + slot * 0.88}" y1="${base - h}" y2="${base - h - 3}"/>`);
       if (bin.count) parts.push(`<text class="bar-count" x="${x + slot / 2}" y="${base - tall - 5}" text-anchor="middle">${shortCount(bin.count, bins.length)}</text>`);
-      const tilt = bins.length > 7;
       parts.push(`<text ${tilt ? `transform="translate(${x + slot / 2 + 3} ${base + 12}) rotate(-38)" text-anchor="end"` : `x="${x + slot / 2}" y="${base + 16}" text-anchor="middle"`}>${bin.name}</text>`);
     });
     const beyond = bins.findIndex((bin) => bin.from > limit);
@@ -418,7 +418,7 @@ class Viewer {
     figure.innerHTML = `<figcaption class="chart-title">Pixels by their largest difference <span class="soft">in steps of 1/${this.max}</span></figcaption>`
       + `<svg viewBox="0 -4 ${width} ${height}" role="img" aria-label="Histogram, pixels by difference in steps of 1/${this.max}. ${told}.">${parts.join('')}</svg>`
       + `<p class="soft probe-hint">Bar heights are logarithmic. ${limit < largest ? 'Hatched bars lie beyond the scene’s fail.' : ''}</p>`;
-    aside.replaceChildren(figure);
+    place.replaceChildren(figure);
   }
 }
 

@@ -172,6 +172,11 @@ static void testHtml(void **state)
         {"\xED\xA0\x80", "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD"}, /* a surrogate */
         {"\xF4\x90\x80\x80", "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD"}, /* above U+10FFFF */
         {"cut \xE6\xBC", "cut \xEF\xBF\xBD\xEF\xBF\xBD"},
+        {"a\xE2\x80\xAE"
+         "b\xE2\x81\xA6",
+         "a\xEF\xBF\xBD"
+         "b\xEF\xBF\xBD"}, /* U+202E, U+2066 turn the direction */
+        {"\xE2\x80\xA6", "\xE2\x80\xA6"},
         {NULL, ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
