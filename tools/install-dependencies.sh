@@ -27,7 +27,7 @@ need_build() {
     compiler=${CC:-cc}
     compiler=${compiler%% *}
     [ "$compiler" != cc ] || compiler=gcc
-    require "${compiler##*/} libc6-dev" headerExists stdio.h
+    require "${compiler##*/} libc6-dev" compilerWorks
     require make has make
     require pkg-config has "$pkgConfig"
     require libyaml-dev "$pkgConfig" --exists yaml-0.1
@@ -37,7 +37,7 @@ need_demo() {
     require povray has povray
 }
 need_unit() {
-    require libcmocka-dev headerExists cmocka.h
+    require libcmocka-dev "$pkgConfig" --exists cmocka
 }
 need_test() {
     require bats has bats
@@ -51,14 +51,10 @@ need_browser() {
     suggest npm has npm
 }
 
-headerExists() {
+compilerWorks() {
     # CC may be several words, such as `ccache gcc`.
     # shellcheck disable=SC2086
-    echo "#include <stddef.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <$1>" | ${CC:-cc} -E - >/dev/null 2>&1
+    echo '#include <stdio.h>' | ${CC:-cc} -E - >/dev/null 2>&1
 }
 chromiumExists() {
     has chromium || has chromium-browser || has google-chrome
