@@ -1,10 +1,21 @@
 #!/usr/bin/env bash
-# Rewrites compare/results.csv from a fresh measurement. A change of its numbers is a commit of its own,
-# with the reason.
+# Rewrites what is committed of the program's results: the measured differences from POV-Ray, the small golden
+# pictures, and the pictures of the README. A change of them is a commit of its own, with the reason.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+program=${ECLAIRAGE:-build/eclairage}
+
 measured=$(mktemp)
 trap 'rm -f "$measured"' EXIT
 tools/measure-scenes.sh >"$measured"
 cp "$measured" compare/results.csv
-git --no-pager diff --stat -- compare/results.csv
+
+mkdir -p tests/golden/pictures
+rm -f tests/golden/pictures/*.png
+for scene in scenes/course/*.yaml scenes/gallery/*.yaml; do
+    "$program" render --quiet --width 96 --bit-depth 16 --encoding linear "$scene" \
+        -o "tests/golden/pictures/$(basename "$scene" .yaml).png"
+done
+
+tools/readme-pictures.sh notes/pictures
+git --no-pager diff --stat -- compare/results.csv tests/golden notes/pictures

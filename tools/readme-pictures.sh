@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Makes the pictures that the README shows: a scene of the gallery, and the report of a few scenes as a
+# browser shows it (left as it is where there is no chromium).
+#
+#   tools/readme-pictures.sh FOLDER
+set -euo pipefail
+program=$(realpath "${ECLAIRAGE:-build/eclairage}")
+mkdir -p "$1"
+"$program" render --quiet scenes/gallery/stairs.yaml -o "$1/stairs.png"
+command -v chromium >/dev/null || exit 0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+ln -s "$PWD/scenes" "$program" "$work"
+out=$(realpath "$1")
+cd "$work"
+PATH=$work:$PATH eclairage compare --quiet scenes/course/0[45]-phong.yaml scenes/gallery/*.yaml >words
+chromium --headless --no-sandbox --disable-gpu --disable-background-networking --hide-scrollbars \
+    --user-data-dir="$work/profile" --window-size=1200,900 --virtual-time-budget=8000 \
+    --screenshot="$out/report.png" "file://$work/eclairage-report/index.html" >log 2>&1
