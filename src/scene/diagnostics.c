@@ -67,17 +67,14 @@ static char *copySourceLine(SourceText *source, Place place, int *offset)
     const char *line = sourceLine(source, place.line, &length);
     const char *end = line + length;
     int first = place.column > MOST_CHARACTERS - BEFORE ? place.column - BEFORE : 1;
-    const char *start = line, *stop = line;
-    int column = 1;
-    while (stop < end && column < first + MOST_CHARACTERS) {
+    const char *start = sourceCharacter(source, place.line, first);
+    const char *stop = start;
+    for (int i = 0; i < MOST_CHARACTERS && stop < end; i++) {
         size_t size;
         decodeUtf8(stop, end, &size);
         stop += size;
-        column++;
-        if (column == first)
-            start = stop;
     }
-    if (column < first)
+    if (length == 0)
         return NULL;
     bool cutBehind = stop < end;
     if (first == 1 && !cutBehind)

@@ -64,6 +64,21 @@ static void readSection(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
         readValue(reader, given, number, value, reader->scene);
 }
 
+/* root is NULL when there is nothing at all. */
+static void reportNoMapping(SceneReader *reader, const YamlNode *root)
+{
+    if (root == NULL || (root->kind == NODE_SCALAR && root->count == 0)) {
+        reportError(reader, (Place){1, 1, 1},
+                    "a scene begins, for example, with objects:", "the file is empty");
+        return;
+    }
+    Text what = {0};
+    textAppendNode(&what, root);
+    reportError(reader, root->place, "write sections such as camera: and objects:",
+                "a scene must be a mapping {key: value}, but this is %s", textString(&what));
+    textFree(&what);
+}
+
 /* Read the root, which must be a mapping. */
 static void readRoot(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
 {
@@ -71,18 +86,9 @@ static void readRoot(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
     if (next == NEXT_FAILED)
         return;
     if (next != NEXT_MAPPING) {
-        bool isEmpty = next == NEXT_END || (next == NEXT_SCALAR && yaml->event.data.scalar.length == 0);
-        Place place = {1, 1, 1};
-        if (isEmpty)
-            reportError(reader, place, "a scene begins, for example, with objects:", "the file is empty");
-        const YamlNode *root = isEmpty ? NULL : readYamlNode(yaml);
-        if (root != NULL && !isSuspect(yaml, root)) {
-            Text what = {0};
-            textAppendNode(&what, root);
-            reportError(reader, root->place, "write sections such as camera: and objects:",
-                        "a scene must be a mapping {key: value}, but this is %s", textString(&what));
-            textFree(&what);
-        }
+        const YamlNode *root = next != NEXT_END ? readYamlNode(yaml) : NULL;
+        if (!yaml->failed && (root == NULL || !isSuspect(yaml, root)))
+            reportNoMapping(reader, root);
         return;
     }
     Place place;

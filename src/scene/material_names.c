@@ -62,7 +62,7 @@ void readNamedMaterials(SceneReader *reader, const FormatKey *key, const YamlNod
 static void reportUndefined(SceneReader *reader, const MaterialUse *use)
 {
     enum {
-        MOST_SEARCHES = 100 /* a file with more such errors gets no suggestions for the rest */
+        MOST_SEARCHES = 20 /* a file with more such errors gets no suggestions for the rest */
     };
     const Name *name = &reader->materialNames.names[use->name];
     Suggestion suggestion = {.word = name->text, .length = name->length};

@@ -137,12 +137,43 @@ const char *sourceLine(SourceText *source, int line, size_t *length)
     if (line < 1 || (size_t)line > source->lineCount)
         return "";
     const char *start = source->text + source->lineStarts[line - 1];
-    const char *end = source->text + source->length;
-    const char *stop = start;
-    while (stop < end && lineEnd(stop, end) == 0)
-        stop++;
+    const char *stop = source->text + source->length;
+    if ((size_t)line < source->lineCount) {
+        /* Step back over the line end before the next line: LF, CR, CR LF, or one of 2 or 3 bytes. */
+        stop = source->text + source->lineStarts[line];
+        if (stop[-1] == '\n')
+            stop -= stop - start > 1 && stop[-2] == '\r' ? 2 : 1;
+        else if (stop[-1] == '\r')
+            stop -= 1;
+        else
+            stop -= (unsigned char)stop[-1] == 0x85 ? 2 : 3;
+    }
     *length = (size_t)(stop - start);
     return start;
+}
+
+const char *sourceCharacter(SourceText *source, int line, int column)
+{
+    size_t length;
+    const char *start = sourceLine(source, line, &length);
+    const char *end = start + length;
+    const char *s = start;
+    int at = 1;
+    if (source->foundLine == line && source->foundColumn <= column) {
+        s = source->text + source->foundOffset;
+        at = source->foundColumn;
+    }
+    for (; at < column && s < end; at++) {
+        size_t size;
+        decodeUtf8(s, end, &size);
+        s += size;
+    }
+    if (at == column && length > 0) {
+        source->foundLine = line;
+        source->foundColumn = column;
+        source->foundOffset = (size_t)(s - source->text);
+    }
+    return s;
 }
 
 /* ---- Encoding ---- */

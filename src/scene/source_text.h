@@ -24,6 +24,8 @@ typedef struct SourceText {
     size_t length;    /* bytes */
     size_t *lineStarts;
     size_t lineCount;
+    int foundLine, foundColumn; /* the character looked for last, and its offset */
+    size_t foundOffset;
 } SourceText;
 
 /* A byte order mark in front is left out. */
@@ -32,6 +34,10 @@ void closeSourceText(SourceText *source);
 
 /* The line without its end, as bytes; an empty one when there is no such line or no memory. */
 const char *sourceLine(SourceText *source, int line, size_t *length);
+
+/* The start of a character of the line, or the line's end where it is shorter. Asking for places in rising
+ * order takes linear time in all, also on one very long line. */
+const char *sourceCharacter(SourceText *source, int line, int column);
 
 /* The character at s (s < end) and in *size its bytes; for bytes that are not UTF-8 (RFC 3629, section
  * 4) UINT32_MAX, *size then being 1. */

@@ -72,14 +72,9 @@ static Place placeOfMark(const yaml_mark_t *mark)
 static char characterAt(SourceText *source, Place place)
 {
     size_t length;
-    const char *s = sourceLine(source, place.line, &length);
-    const char *end = s + length;
-    for (int column = 1; column < place.column && s < end; column++) {
-        size_t size;
-        decodeUtf8(s, end, &size);
-        s += size;
-    }
-    return s < end ? *s : '\0';
+    const char *line = sourceLine(source, place.line, &length);
+    const char *s = sourceCharacter(source, place.line, place.column);
+    return s < line + length ? *s : '\0';
 }
 
 static bool startsWith(const char *text, const char *start)

@@ -85,6 +85,25 @@ static void dropEvent(YamlReader *reader)
     reader->hasEvent = false;
 }
 
+/* libyaml compares each %TAG directive with all before it. Tags are no part of a scene, so there is no need
+ * for many: stop before that takes long. */
+static void refuseManyTagDirectives(YamlReader *reader)
+{
+    enum {
+        MOST_DIRECTIVES = 64
+    };
+    const char *text = reader->source->text, *end = text + reader->source->length;
+    int count = 0;
+    for (const char *s = text; s < end && (s = memchr(s, '%', (size_t)(end - s))) != NULL; s++) {
+        bool isDirective =
+            end - s >= 4 && memcmp(s, "%TAG", 4) == 0 && (s == text || s[-1] == '\n' || s[-1] == '\r');
+        count += isDirective;
+    }
+    if (count > MOST_DIRECTIVES)
+        fail(reader, (Place){1, 1, 1}, "remove them",
+             "tags and their %TAG directives have no meaning in a scene");
+}
+
 void openYaml(YamlReader *reader, SourceText *source, Diagnostics *diagnostics)
 {
     *reader = (YamlReader){.source = source, .diagnostics = diagnostics};
@@ -94,6 +113,8 @@ void openYaml(YamlReader *reader, SourceText *source, Diagnostics *diagnostics)
     }
     yaml_parser_set_input_string(&reader->parser, (const unsigned char *)source->text, source->length);
     yaml_parser_set_encoding(&reader->parser, YAML_UTF8_ENCODING);
+
+    refuseManyTagDirectives(reader);
 
     /* Skip the start of the stream and of the document. */
     if (pullEvent(reader))

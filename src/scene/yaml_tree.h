@@ -3,11 +3,11 @@
  * libyaml delivers events; here they become nodes with places. The document may be walked piece by piece,
  * so that a list of a million objects is never in memory as a whole: enter the mapping, enter the list,
  * read one item, rewind the arena, read the next.
- * What libyaml lets pass is stopped here, while events are pulled: nesting deeper than YAML_MAX_DEPTH (it
- * takes quadratic time over 100 kB of `[`), aliases of undefined anchors or within themselves, anchors
- * defined twice, tags, documents blown up by aliases, a second document.
- * Invariant: a node's height plus the depth it stands at is at most YAML_MAX_DEPTH, aliases followed, so
- * that walking a tree recursively is safe.
+ * What libyaml 0.2.5 lets pass is stopped here, while events are pulled: nesting deeper than YAML_MAX_DEPTH
+ * (it takes quadratic time over 100 kB of `[`) and thousands of %TAG directives (quadratic too), aliases of
+ * undefined anchors or within themselves, anchors defined twice, tags, documents blown up by aliases, a
+ * second document. Invariant: a node's height plus the depth it stands at is at most YAML_MAX_DEPTH, aliases
+ * followed, so that walking a tree recursively is safe.
  */
 #ifndef ECLAIRAGE_SCENE_YAML_TREE_H
 #define ECLAIRAGE_SCENE_YAML_TREE_H
