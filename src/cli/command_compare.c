@@ -278,7 +278,11 @@ static void runJob(void *context, size_t number)
         if (!statusIsOk(&status) && status.code != STATUS_INTERRUPTED)
             appendSceneError(&job->messages, job->path, &status);
     }
-    job->result.status = status;
+    /* In the results the message stands alone, so it says the place. */
+    Status placed = status.line > 0 ? statusErrorAt(status.code, status.line, status.column, "line %d: %s",
+                                                    status.line, status.message)
+                                    : status;
+    job->result.status = placed;
     finishJob(run, job);
 }
 

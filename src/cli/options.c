@@ -228,7 +228,7 @@ static Status unknownOption(const char *given, size_t length, const Command *com
     return statusError(STATUS_USAGE, "unknown option '%.*s'", (int)length, given);
 }
 
-/* An option of other commands: name them. */
+/* An option of other commands: name them, and what this one has for the same purpose. */
 static Status misplacedOption(const char *given, const Option *option, const Command *command)
 {
     Text names = {0};
@@ -241,6 +241,11 @@ static Status misplacedOption(const char *given, const Option *option, const Com
         count++;
         textAppendFormat(&names, "%s%s", count == 1 ? "" : count == total ? " and " : ", ", COMMANDS[i].name);
     }
+    bool isTarget = option->kind == VALUE_FILE || option->kind == VALUE_FOLDER;
+    for (size_t i = 0; i < OPTION_COUNT && isTarget; i++)
+        if ((OPTIONS[i].commands & command->bit) != 0 &&
+            (OPTIONS[i].kind == VALUE_FILE || OPTIONS[i].kind == VALUE_FOLDER))
+            textAppendFormat(&names, "; use --%s %s", OPTIONS[i].name, OPTIONS[i].placeholder);
     Status status = statusError(STATUS_USAGE, "'%s' does not take %s, which is an option of %s",
                                 command->name, given, textString(&names));
     textFree(&names);

@@ -90,7 +90,9 @@ Status openScene(const char *path, const Arguments *arguments, Scene *scene, Tex
         if (!statusIsOk(&status))
             freeScene(scene);
     }
-    if (!statusIsOk(&status) && !isSaid)
+    if (status.code == STATUS_USAGE)
+        appendSceneError(messages, path, &status);
+    else if (!statusIsOk(&status) && !isSaid)
         appendError(messages, displayName(path), &status);
     return status;
 }

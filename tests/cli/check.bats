@@ -69,6 +69,12 @@ load helpers
     not grep -q $'\e' "$err"
     needs jq
     [ "$(jq -r '.files[0].file' "$out")" = "$name" ]
+    try 4 check $'missing\e[31m.yaml'
+    not grep -q $'\e' "$err"
+    name=$'good\e[31m.yaml'
+    makeScene "$name"
+    try 0 check "$name"
+    not grep -q $'\e' "$err"
 }
 
 @test "the schema is JSON Schema draft-07, and the committed one" {

@@ -90,7 +90,7 @@ END
     try 7 compare bad.yaml missing.yaml good.yaml bias.yaml --json
     json '.pass == false and [.scenes[].pass] == [false, false, true, false]'
     json '[.scenes[].error.code] == [3, 4, null, 7]'
-    json '.scenes[0].error.message | length > 0'
+    json '.scenes[0].error.message | startswith("line 7: ")'
     json '.scenes[0] | keys == ["error", "pass", "scene"]'
     grep -q '^bad\.yaml:7:1: error: ' "$err"
     hasText "$err" missing.yaml

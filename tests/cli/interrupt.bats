@@ -75,6 +75,21 @@ interrupted() {
     not grep -lqs "$TMPDIR" /proc/[0-9]*/cmdline
 }
 
+@test "a Ctrl-C at the terminal, which POV-Ray gets too" {
+    needs povray
+    needs setsid
+    makeScene s.yaml
+    setsid "$ECLAIRAGE" compare s.yaml s.yaml >"$out" 2>"$err" &
+    program=$!
+    sleep 0.3
+    kill -INT -- -$program
+    code=0
+    wait $program || code=$?
+    expectCode 130 $code
+    sameAs "$err" <<<"eclairage: error: interrupted"
+    nothingTemporary
+}
+
 @test "compare with JSON that was interrupted writes no JSON" {
     needs povray
     makeScene s.yaml
@@ -88,4 +103,6 @@ interrupted() {
         awk 'BEGIN { for (i = 0; i < 2000000; i++) print "  - sphere: {center: [0, 0, -9], radius: 1}" }'
     } >s.yaml
     interrupted INT 0.3 check s.yaml
+    interrupted INT 0.3 check --json s.yaml
+    isEmpty "$out"
 }

@@ -46,8 +46,10 @@ END
 @test "options of other commands are refused by name" {
     refused "'check' does not take --width, which is an option of render, pov and compare" check \
         check --width 3 s.yaml
-    refused "'compare' does not take -o, which is an option of render, pov and diff" compare compare s.yaml -o x
-    refused "'render' does not take --out, which is an option of compare" render render s.yaml --out x
+    refused "'compare' does not take -o, which is an option of render, pov and diff; use --out DIR" compare \
+        compare s.yaml -o x
+    refused "'render' does not take --out, which is an option of compare; use --output FILE" render \
+        render s.yaml --out x
     refused "'pov' does not take --json, which is an option of render, compare, diff and check" pov \
         pov --json s.yaml
     refused "'schema' does not take --json, which is an option of render, compare, diff and check" schema \

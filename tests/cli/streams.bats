@@ -75,6 +75,19 @@ eachWriter() { # FUNCTION
     [ $code = 4 ]
 }
 
+@test "the places of closed streams are taken before any file is opened" {
+    [ -e /proc/self/fd ] || skip "there is no /proc"
+    mkfifo scene.yaml
+    "$ECLAIRAGE" check scene.yaml <&- >&- 2>&- &
+    program=$!
+    sleep 0.3
+    for descriptor in 0 1 2; do
+        [ "$(readlink /proc/$program/fd/$descriptor)" = /dev/null ]
+    done
+    kill $program
+    wait $program || true
+}
+
 # What the program writes to a terminal of 80 columns: onTerminal COMMAND_LINE
 onTerminal() {
     needs script
