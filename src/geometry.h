@@ -7,6 +7,7 @@
 #define ECLAIRAGE_GEOMETRY_H
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct Vector3D {
     double x, y, z;
@@ -70,6 +71,52 @@ static inline double largestCoordinate(Vector3D v)
 {
     return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
 }
+
+/* An affine map: where it takes the three axes, and then the translation. */
+typedef struct Matrix {
+    Vector3D x, y, z;
+    Vector3D translate;
+} Matrix;
+
+/* A Matrix and its inverse. */
+typedef struct Transform {
+    Matrix worldFromObject, objectFromWorld;
+} Transform;
+
+static inline Vector3D transformDirection(const Matrix *matrix, Vector3D v)
+{
+    return addVectors(addVectors(multVector(matrix->x, v.x), multVector(matrix->y, v.y)),
+                      multVector(matrix->z, v.z));
+}
+
+static inline Vector3D transformPoint(const Matrix *matrix, Vector3D p)
+{
+    return addVectors(transformDirection(matrix, p), matrix->translate);
+}
+
+/* Where the transpose of the matrix takes v. Normals go by the inverse transpose of the map: with
+ * inverse = objectFromWorld it takes a normal from object to world space (not to unit length). */
+static inline Vector3D transformNormal(const Matrix *inverse, Vector3D v)
+{
+    return (Vector3D){dot(inverse->x, v), dot(inverse->y, v), dot(inverse->z, v)};
+}
+
+/* The map that does first and then second. */
+Matrix composeMatrices(const Matrix *first, const Matrix *second);
+
+/* The steps that a scene file's `transform` is made of. axis: any length but 0; angle: degrees,
+ * right-handed. */
+Matrix identityMatrix(void);
+Matrix translationMatrix(Vector3D by);
+Matrix scalingMatrix(Vector3D factors);
+Matrix rotationMatrix(Vector3D axis, double angle);
+
+/* False, with transform untouched, when the map cannot be inverted: it squeezes space to a plane, or its
+ * numbers leave the range of a double. */
+bool createTransform(const Matrix *worldFromObject, Transform *transform);
+
+/* An upper bound of how much longer a vector may get: the largest sum of magnitudes in a row. */
+double matrixNorm(const Matrix *matrix);
 
 /* The direction of v with length 1. The zero vector, which has no direction, stays as it is. Right for
  * every finite v, also where |v|^2 would overflow or vanish. */

@@ -1,7 +1,7 @@
 /* raytracer.c - the course's tracer; see raytracer.h.
  *
- * Read it from the end upwards: renderTile sends a ray through each pixel, traceRay finds what it
- * meets, shade adds up the lights, isInShadow asks whether one of them is hidden.
+ * Read it from the end upwards: renderTile sends rays through each pixel, traceRay finds what one meets,
+ * shade adds up what the surface returns, lightThatReaches asks what hides a light.
  */
 #include "raytracer.h"
 
@@ -11,142 +11,46 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-/* ---- The scene ---- */
+/* ---- Where a ray meets the scene ---- */
 
-Light createLight(Vector3D position, Color3f color)
-{
-    return (Light){.position = position, .color = color, .falloff = FALLOFF_INVERSE_SQUARE};
-}
-
-Scene createScene(void)
-{
-    return (Scene){
-        .image = {.width = 640, .height = 480, .bitDepth = 8, .encoding = ENCODING_SRGB},
-        .camera = {.direction = {0, 0, -1}, .up = {0, 1, 0}, .fov = 60},
-        .render = {.model = MODEL_PHONG, .shadows = true, .shadowBias = NAN},
-        .tolerance = TOLERANCE_DEFAULT,
-    };
-}
-
-void freeScene(Scene *scene)
-{
-    free(scene->lights);
-    free(scene->objects);
-    scene->lights = NULL;
-    scene->objects = NULL;
-    scene->lightCount = scene->lightCapacity = 0;
-    scene->objectCount = scene->objectCapacity = 0;
-}
-
-/* Make room for one more item; returns the array, or NULL when memory runs out. */
-static void *growArray(void *array, size_t count, size_t *capacity, size_t itemSize)
-{
-    if (count < *capacity)
-        return array;
-    size_t larger = *capacity < 8 ? 8 : *capacity + *capacity / 2;
-    if (larger > SIZE_MAX / itemSize)
-        return NULL;
-    void *grown = realloc(array, larger * itemSize);
-    if (grown != NULL)
-        *capacity = larger;
-    return grown;
-}
-
-bool addLightToScene(Scene *scene, Light light)
-{
-    Light *lights = growArray(scene->lights, scene->lightCount, &scene->lightCapacity, sizeof *lights);
-    if (lights == NULL)
-        return false;
-    scene->lights = lights;
-    scene->lights[scene->lightCount++] = light;
-    return true;
-}
-
-bool addObjectToScene(Scene *scene, Object object)
-{
-    Object *objects = growArray(scene->objects, scene->objectCount, &scene->objectCapacity, sizeof *objects);
-    if (objects == NULL)
-        return false;
-    scene->objects = objects;
-    scene->objects[scene->objectCount++] = object;
-    return true;
-}
-
-bool addSphereToScene(Scene *scene, Sphere sphere)
-{
-    return addObjectToScene(scene, (Object){.kind = SHAPE_SPHERE, .sphere = sphere});
-}
-
-bool addCubeToScene(Scene *scene, Cube cube)
-{
-    return addObjectToScene(scene, (Object){.kind = SHAPE_CUBE, .cube = cube});
-}
-
-bool addBoxToScene(Scene *scene, Box box)
-{
-    return addObjectToScene(scene, (Object){.kind = SHAPE_BOX, .box = box});
-}
-
-bool addPlaneToScene(Scene *scene, Plane plane)
-{
-    return addObjectToScene(scene, (Object){.kind = SHAPE_PLANE, .plane = plane});
-}
-
-/* ---- The camera ---- */
-
-CameraFrame cameraFrame(const Camera *camera, int width, int height)
-{
-    const double pi = 3.14159265358979323846;
-    Vector3D forward = normalize(camera->direction);
-    Vector3D right = normalize(cross(forward, normalize(camera->up)));
-    Vector3D up = cross(right, forward);
-    double pictureHeight = 2 * tan(camera->fov * pi / 360);
-    double pictureWidth = pictureHeight * width / height;
-    return (CameraFrame){camera->position, forward, multVector(right, pictureWidth),
-                         multVector(up, pictureHeight)};
-}
-
-Ray cameraRay(const CameraFrame *frame, double x, double y, int width, int height)
-{
-    double u = x / width - 0.5;
-    double v = (height - y) / height - 0.5;
-    Vector3D direction =
-        addVectors(addVectors(frame->forward, multVector(frame->right, u)), multVector(frame->up, v));
-    return createRay(frame->position, normalize(direction));
-}
-
-/* ---- One ray ---- */
-
-/* The nearest object that the ray meets, or NULL. */
-static const Object *nearestObject(const Ray *ray, const Scene *scene, double *distance)
+/* The nearest object that the ray meets, or NULL; hit says where, and on which of its parts. */
+static const Object *nearestObject(const Ray *ray, const Scene *scene, Hit *hit)
 {
     const Object *nearest = NULL;
-    *distance = INFINITY;
+    HitSink sink = createHitSink(0, false);
     for (size_t i = 0; i < scene->objectCount; i++) {
-        const Object *object = &scene->objects[i];
-        double t = objectShape(object)->distance(object, ray);
-        if (t < *distance) {
-            *distance = t;
-            nearest = object;
-        }
+        double before = sink.nearest.distance;
+        intersectObject(&scene->objects[i], ray, &sink);
+        if (sink.nearest.distance < before)
+            nearest = &scene->objects[i];
     }
+    *hit = sink.nearest;
     return nearest;
 }
 
 bool throwRayThroughScene(Ray ray, Scene scene, Intersection *intersection)
 {
-    double distance;
-    const Object *object = nearestObject(&ray, &scene, &distance);
+    Hit hit;
+    const Object *object = nearestObject(&ray, &scene, &hit);
     return object != NULL && intersectsObject(&ray, object, intersection);
 }
+
+/* ---- Shadows ---- */
 
 /* How many times the largest number in a computation its result may be wrong, with a wide margin: a
  * few roundings of 2^-53 each. */
 static const double ROUNDING_MARGIN = 0x1p-40;
 
-/* Whether something lies between the point of the object and the light.
- *
- * Shadow acne, and what to do about it (handout, exercise 04, questions 03 and 04). The computed point
+/* A point where a ray met a surface, ready to send further rays from. */
+typedef struct SurfacePoint {
+    const Object *object; /* the whole object; hit.object is its part */
+    Hit hit;
+    Vector3D position;
+    Vector3D normal; /* turned to the ray's side */
+    double offset;   /* how far to step off the surface */
+} SurfacePoint;
+
+/* Shadow acne, and what to do about it (handout, exercise 04, questions 03 and 04). The computed point
  * is not on the surface but, by rounding, a little above or below it. From below, the ray to the light
  * meets the very surface it starts on, and the point shadows itself: half of the points do, in a
  * pattern of specks. Taking double for float makes the gap smaller, not the specks fewer.
@@ -155,100 +59,263 @@ static const double ROUNDING_MARGIN = 0x1p-40;
  * fixed 0.001 is too much for a scene of millimetres and too little for one of kilometres. But the
  * rounding error is known: it is a few units in the last place of the largest number that went into
  * the point. So the step is 2^-40 of that number: some thousand times the error, and a million
- * millionth of the scene. The light's end has the same trouble when the light lies on a surface, and
- * the same remedy.
+ * millionth of the scene. Mirrored rays start likewise, refracted ones on the other side. The light's end
+ * has the same trouble when the light lies on a surface, and the same remedy.
  *
  * A scene that gives a shadow bias gets the textbook's remedy instead, for comparison: start on the
  * surface, and count only what is farther than the bias. With 0 the acne is back. */
-static bool isInShadow(const Scene *scene, const Object *object, const Ray *ray, const Intersection *hit,
-                       Vector3D lightPosition)
+static Vector3D offsetStart(const SurfacePoint *point, double side)
 {
-    bool ownRule = isnan(scene->render.shadowBias);
-    double nearest = ownRule ? 0 : scene->render.shadowBias;
-    Vector3D start = hit->position;
-    if (ownRule) {
-        double magnitude =
-            largestCoordinate(ray->origin) + hit->distance + objectShape(object)->magnitude(object);
-        start = addVectors(start, multVector(hit->normal, magnitude * ROUNDING_MARGIN));
-    }
+    return addVectors(point->position, multVector(point->normal, side * point->offset));
+}
 
-    /* A blocker counts only between the point and the light. */
-    Vector3D toLight = subVectors(lightPosition, start);
-    double lightDistance = norm(toLight);
-    double farthest = lightDistance;
-    if (ownRule)
-        farthest -= (lightDistance + largestCoordinate(lightPosition)) * ROUNDING_MARGIN;
-    Ray shadowRay = createRay(start, normalize(toLight));
-    for (size_t i = 0; i < scene->objectCount; i++) {
-        const Object *blocker = &scene->objects[i];
-        double t = objectShape(blocker)->distance(blocker, &shadowRay);
-        if (t > nearest && t < farthest)
+static int compareDistances(const void *a, const void *b)
+{
+    double first = ((const Hit *)a)->distance, second = ((const Hit *)b)->distance;
+    return (first > second) - (first < second);
+}
+
+Color3f effectiveTransmission(const Scene *scene, const Material *material)
+{
+    return materialModel(scene, material) == MODEL_SIMPLE ? createColor(0, 0, 0) : material->transmission;
+}
+
+/* Whether rays go into the object: a part of it has a transmission. */
+static bool objectIsTransmissive(const Object *object, const Scene *scene)
+{
+    if (object->kind != SHAPE_CSG)
+        return !colorIsBlack(effectiveTransmission(scene, &object->material));
+    for (size_t i = 0; i < object->csg.partCount; i++)
+        if (objectIsTransmissive(&object->csg.parts[i], scene))
             return true;
-    }
     return false;
 }
 
-/* What arrives of the light at distance d. */
-static Color3f lightAtDistance(const Light *light, double d)
+/* What is left of the light after all that lies between the point and it: black behind an opaque surface,
+ * times the transmission of each transparent one that it crosses. */
+static Color3f lightThatReaches(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving)
 {
-    return light->falloff == FALLOFF_INVERSE_SQUARE ? scaleColor(light->color, 1 / (d * d)) : light->color;
+    bool ownRule = isnan(scene->render.shadowBias);
+    Vector3D start = ownRule ? offsetStart(point, 1) : point->position;
+    Ray shadowRay = createRay(start, arriving->direction);
+    double farthest = INFINITY;
+    if (isfinite(arriving->distance)) {
+        Vector3D toLight = subVectors(arriving->position, start);
+        double distance = norm(toLight);
+        shadowRay.direction = normalize(toLight);
+        farthest = distance;
+        if (ownRule)
+            farthest -= (distance + largestCoordinate(arriving->position)) * ROUNDING_MARGIN;
+    }
+
+    /* A blocker counts only between the point and the light. Of an opaque one any hit will do. */
+    Color3f color = arriving->color;
+    HitSink sink = createHitSink(ownRule ? 0 : scene->render.shadowBias, true);
+    for (size_t i = 0; i < scene->objectCount && !colorIsBlack(color); i++) {
+        const Object *blocker = &scene->objects[i];
+        if (blocker->noShadow)
+            continue;
+        size_t before = sink.count;
+        sink.keepAll = objectIsTransmissive(blocker, scene);
+        sink.nearest.distance = farthest;
+        intersectObject(blocker, &shadowRay, &sink);
+        bool blocked = !sink.keepAll && sink.nearest.distance < farthest;
+        for (size_t h = before; h < sink.count && !blocked; h++)
+            blocked = sink.all[h].distance < farthest &&
+                      colorIsBlack(effectiveTransmission(scene, &sink.all[h].object->material));
+        if (blocked)
+            color = createColor(0, 0, 0);
+    }
+
+    /* Filter by what is left, which is transparent, in the order in which the light is met. */
+    if (!colorIsBlack(color) && sink.count > 0) {
+        qsort(sink.all, sink.count, sizeof *sink.all, compareDistances);
+        for (size_t h = 0; h < sink.count && sink.all[h].distance < farthest; h++)
+            color = multColors(color, effectiveTransmission(scene, &sink.all[h].object->material));
+    }
+    freeHitSink(&sink);
+    return color;
 }
 
-/* The colour that leaves the point towards the ray's origin. */
-static Color3f shade(const Scene *scene, const Object *object, const Ray *ray, const Intersection *hit,
-                     RayCounts *counts)
-{
-    const Material *material = &hit->material;
-    ShadingModel model = scene->render.model;
-    bool hasHighlight = !colorIsBlack(material->specular);
-    Vector3D v = multVector(ray->direction, -1);
-    if (model == MODEL_SIMPLE && (!scene->render.shadows || scene->lightCount == 0))
-        return material->diffuse;
+/* ---- What leaves a surface ---- */
 
+/* The transparent objects that a ray is in, the one entered last at the end. */
+enum {
+    MAX_MEDIA = 64
+};
+typedef struct Media {
+    const Object *objects[MAX_MEDIA];
+    int count;
+} Media;
+
+static Color3f traceRay(const Ray *ray, const Scene *scene, const Media *media, int depth, RayCounts *counts);
+
+/* The simple model: the diffuse colour where a light reaches the point, or where that is not asked. */
+static Color3f shadeSimple(const Scene *scene, const SurfacePoint *point, const Material *material,
+                           RayCounts *counts)
+{
+    if (!scene->render.shadows || scene->lightCount == 0)
+        return material->diffuse;
+    for (size_t i = 0; i < scene->lightCount; i++) {
+        for (int sample = 0; sample < lightSampleCount(&scene->lights[i]); sample++) {
+            ArrivingLight arriving = lightArriving(&scene->lights[i], sample, point->position);
+            if (!(dot(point->normal, arriving.direction) > 0))
+                continue;
+            /* Falloff, cone and colour play no part. */
+            arriving.color = createColor(1, 1, 1);
+            counts->shadow++;
+            if (!colorIsBlack(lightThatReaches(scene, point, &arriving)))
+                return material->diffuse;
+        }
+    }
+    return createColor(0, 0, 0);
+}
+
+/* The light of all lamps that the surface returns towards the ray's origin. */
+static Color3f shadeLights(const Scene *scene, const SurfacePoint *point, const Material *material,
+                           Vector3D v, RayCounts *counts)
+{
+    ShadingModel model = materialModel(scene, material);
+    bool hasHighlight = model >= MODEL_PHONG && !colorIsBlack(material->specular);
     Color3f diffuse = createColor(0, 0, 0), highlight = createColor(0, 0, 0);
     for (size_t i = 0; i < scene->lightCount; i++) {
         const Light *light = &scene->lights[i];
-        Vector3D il = subVectors(light->position, hit->position);
-        Vector3D l = normalize(il);
+        for (int sample = 0; sample < lightSampleCount(light); sample++) {
+            ArrivingLight arriving = lightArriving(light, sample, point->position);
+            Vector3D l = arriving.direction;
 
-        /* A light behind the surface adds nothing. */
-        if (!(dot(hit->normal, l) > 0))
-            continue;
-        if (scene->render.shadows) {
-            counts->shadow++;
-            if (isInShadow(scene, object, ray, hit, light->position))
+            /* A light behind the surface adds nothing. */
+            if (!(dot(point->normal, l) > 0) || colorIsBlack(arriving.color))
                 continue;
+            if (scene->render.shadows) {
+                counts->shadow++;
+                arriving.color = lightThatReaches(scene, point, &arriving);
+                if (colorIsBlack(arriving.color))
+                    continue;
+            }
+
+            /* Add Ic * Lc * dot(N, IL/|IL|) / |IL|^2, and for Phong Lc * specFactor / |IL|^2. */
+            diffuse = addColors(diffuse, diffuseReflection(material, arriving.color, point->normal, l));
+            if (hasHighlight)
+                highlight = addColors(highlight,
+                                      model == MODEL_PHONG
+                                          ? specularHighlight(material, arriving.color, point->normal, l, v)
+                                          : blinnHighlight(material, arriving.color, point->normal, l, v));
         }
-
-        /* One light that reaches the point is enough for the simple model. */
-        if (model == MODEL_SIMPLE)
-            return material->diffuse;
-
-        /* Add Ic * Lc * dot(N, IL/|IL|) / |IL|^2, and for Phong Lc * specFactor / |IL|^2. */
-        Color3f arriving = lightAtDistance(light, norm(il));
-        diffuse = addColors(diffuse, diffuseReflection(material, arriving, hit->normal, l));
-        if (model == MODEL_PHONG && hasHighlight)
-            highlight = addColors(highlight, specularHighlight(material, arriving, hit->normal, l, v));
     }
 
     /* Ispec is the same for all lights, so it multiplies their sum. In this order and with each step
-     * rounded to float, POV-Ray's three layers (povray/MAPPING.md) give the same bits. */
-    return addColors(diffuse, multColors(material->specular, highlight));
+     * rounded to float, POV-Ray's layers (povray/MAPPING.md) give the same bits. */
+    Color3f own = addColors(multColors(material->ambient, scene->render.ambient), material->emission);
+    return addColors(addColors(own, diffuse), multColors(material->specular, highlight));
+}
+
+/* Go through the surface: the media behind it, and the ratio of the two indices of refraction. */
+static double crossSurface(const Media *media, const Object *object, double ior, Media *behind)
+{
+    *behind = *media;
+    int last = media->count - 1;
+    double outside = last >= 0 ? (double)media->objects[last]->material.ior : 1;
+    for (int i = last; i >= 0; i--) {
+        if (media->objects[i] != object)
+            continue;
+        /* Leaving: the last one entered into what was before it, another one without bending. */
+        for (int j = i; j < last; j++)
+            behind->objects[j] = media->objects[j + 1];
+        behind->count = last;
+        if (i < last)
+            return 1;
+        return ior / (last > 0 ? (double)media->objects[last - 1]->material.ior : 1);
+    }
+    if (behind->count < MAX_MEDIA)
+        behind->objects[behind->count++] = object;
+    return outside / ior;
+}
+
+/* What comes along the mirrored ray. */
+static Color3f traceMirrored(const Scene *scene, const SurfacePoint *point, const Ray *ray,
+                             const Media *media, int depth, RayCounts *counts)
+{
+    Ray mirrored = createRay(offsetStart(point, 1), normalize(reflect(ray->direction, point->normal)));
+    counts->secondary++;
+    return traceRay(&mirrored, scene, media, depth + 1, counts);
+}
+
+/* The colour that leaves the point towards the ray's origin. */
+static Color3f shade(const Scene *scene, const SurfacePoint *point, const Ray *ray, const Media *media,
+                     int depth, RayCounts *counts)
+{
+    Material material = materialAt(point->hit.object, point->position);
+    if (materialModel(scene, &material) == MODEL_SIMPLE)
+        return shadeSimple(scene, point, &material, counts);
+    Color3f color = shadeLights(scene, point, &material, multVector(ray->direction, -1), counts);
+
+    if (!colorIsBlack(material.transmission)) {
+        /* Snell's law: the refracted direction is r d + (r c - sqrt(k)) n, with c = -n.d, r the ratio of
+         * the indices and k = 1 - r^2 (1 - c^2); where k < 0 the reflection is total (Heckbert 1989,
+         * "Derivation of refraction formulas", in An Introduction to Ray Tracing). */
+        Media behind;
+        double r = crossSurface(media, point->object, (double)material.ior, &behind);
+        double c = -dot(point->normal, ray->direction);
+        double k = 1 + r * r * (c * c - 1);
+        if (k < 0)
+            return addColors(color, traceMirrored(scene, point, ray, media, depth, counts));
+        Vector3D direction =
+            addVectors(multVector(ray->direction, r), multVector(point->normal, r * c - sqrt(k)));
+        Ray refracted = createRay(offsetStart(point, -1), r == 1 ? ray->direction : normalize(direction));
+        counts->secondary++;
+        Color3f through = traceRay(&refracted, scene, &behind, depth + 1, counts);
+        color = addColors(color, multColors(through, material.transmission));
+    }
+    if (!colorIsBlack(material.reflection)) {
+        Color3f mirrored = traceMirrored(scene, point, ray, media, depth, counts);
+        color = addColors(color, multColors(material.reflection, mirrored));
+    }
+    return color;
+}
+
+/* ---- One ray ---- */
+
+static Color3f backgroundColor(const Background *background, const Ray *ray)
+{
+    if (!background->isGradient)
+        return background->bottom;
+    double t = (1 + ray->direction.y) / 2;
+    return addColors(scaleColor(background->bottom, 1 - t), scaleColor(background->top, t));
+}
+
+/* What is left of a colour behind fog, and the fog's own. */
+static Color3f throughFog(const Fog *fog, Color3f color, double distance)
+{
+    if (!(fog->distance > 0))
+        return color;
+    double weight = exp(-distance / fog->distance);
+    return addColors(scaleColor(fog->color, 1 - weight), scaleColor(color, (double)(float)weight));
 }
 
 /* The colour that comes along the ray. */
-static Color3f traceRay(const Ray *ray, const Scene *scene, RayCounts *counts)
+static Color3f traceRay(const Ray *ray, const Scene *scene, const Media *media, int depth, RayCounts *counts)
 {
-    double distance;
-    const Object *object = nearestObject(ray, scene, &distance);
-    if (object == NULL)
-        return scene->background;
-    Vector3D position = pointOnRay(ray, distance);
-    Intersection hit = {.distance = distance,
-                        .position = position,
-                        .normal = objectShape(object)->normal(object, ray, position),
-                        .material = object->material};
-    return shade(scene, object, ray, &hit, counts);
+    if (depth > scene->render.maxDepth || cancelRequested())
+        return createColor(0, 0, 0);
+    SurfacePoint point;
+    point.object = nearestObject(ray, scene, &point.hit);
+    if (point.object == NULL)
+        return throughFog(&scene->fog, backgroundColor(&scene->background, ray), INFINITY);
+    point.position = pointOnRay(ray, point.hit.distance);
+    point.normal = objectNormal(ray, &point.hit, point.position);
+    point.offset = hitMagnitude(point.hit.object, ray, point.hit.distance) * ROUNDING_MARGIN;
+    return throughFog(&scene->fog, shade(scene, &point, ray, media, depth, counts), point.hit.distance);
+}
+
+/* The transparent objects that contain the point, in the order of the scene. */
+static Media mediaAt(const Scene *scene, Vector3D point)
+{
+    Media media = {.count = 0};
+    for (size_t i = 0; i < scene->objectCount && media.count < MAX_MEDIA; i++)
+        if (objectIsTransmissive(&scene->objects[i], scene) && objectContains(&scene->objects[i], point))
+            media.objects[media.count++] = &scene->objects[i];
+    return media;
 }
 
 /* ---- The picture ---- */
@@ -262,10 +329,37 @@ typedef struct Rendering {
     Framebuffer *framebuffer;
     const RenderOptions *options;
     CameraFrame frame;
+    Media media; /* at the position of a perspective camera */
     size_t tileColumns, tileCount;
     atomic_size_t tilesDone;
-    _Atomic uint64_t primary, shadow;
+    _Atomic uint64_t primary, shadow, secondary;
 } Rendering;
+
+/* The mean of samples x samples rays, evenly spread; of one, through the middle. */
+static Color3f renderPixel(const Rendering *rendering, int x, int y, RayCounts *counts)
+{
+    const Scene *scene = rendering->scene;
+    const Framebuffer *framebuffer = rendering->framebuffer;
+    int n = scene->render.samples;
+    double sum[3] = {0, 0, 0};
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i < n; i++) {
+            Ray ray = cameraRay(&rendering->frame, x + (i + 0.5) / n, y + (j + 0.5) / n, framebuffer->width,
+                                framebuffer->height);
+            Media media = rendering->frame.projection == PROJECTION_PERSPECTIVE ? rendering->media
+                                                                                : mediaAt(scene, ray.origin);
+            counts->primary++;
+            Color3f color = traceRay(&ray, scene, &media, 1, counts);
+            if (n == 1)
+                return color;
+            sum[0] += (double)color.r;
+            sum[1] += (double)color.g;
+            sum[2] += (double)color.b;
+        }
+    }
+    double count = (double)n * n;
+    return createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
+}
 
 /* Draw one square of the picture. */
 static void renderTile(void *context, size_t number)
@@ -277,18 +371,14 @@ static void renderTile(void *context, size_t number)
     int right = left + TILE_SIZE < framebuffer->width ? left + TILE_SIZE : framebuffer->width;
     int bottom = top + TILE_SIZE < framebuffer->height ? top + TILE_SIZE : framebuffer->height;
 
-    /* Send one ray through the middle of each pixel. */
     RayCounts counts = {0};
-    for (int y = top; y < bottom; y++) {
-        for (int x = left; x < right && !cancelRequested(); x++) {
-            Ray ray = cameraRay(&rendering->frame, x + 0.5, y + 0.5, framebuffer->width, framebuffer->height);
-            counts.primary++;
-            putLinearPixel(framebuffer, x, y, traceRay(&ray, rendering->scene, &counts));
-        }
-    }
+    for (int y = top; y < bottom; y++)
+        for (int x = left; x < right && !cancelRequested(); x++)
+            putLinearPixel(framebuffer, x, y, renderPixel(rendering, x, y, &counts));
 
     rendering->primary += counts.primary;
     rendering->shadow += counts.shadow;
+    rendering->secondary += counts.secondary;
     size_t done = atomic_fetch_add(&rendering->tilesDone, 1) + 1;
     if (rendering->options->progress != NULL)
         rendering->options->progress(rendering->options->progressContext,
@@ -304,11 +394,13 @@ Status renderReference(const Scene *scene, Framebuffer *framebuffer, const Rende
                            .framebuffer = framebuffer,
                            .options = options,
                            .frame = cameraFrame(&scene->camera, framebuffer->width, framebuffer->height),
+                           .media = mediaAt(scene, scene->camera.position),
                            .tileColumns = columns,
                            .tileCount = columns * rows};
     Status status = runTasks(rendering.tileCount, options->threads, renderTile, &rendering);
     if (counts != NULL)
-        *counts = (RayCounts){.primary = rendering.primary, .shadow = rendering.shadow};
+        *counts = (RayCounts){
+            .primary = rendering.primary, .shadow = rendering.shadow, .secondary = rendering.secondary};
     return status;
 }
 

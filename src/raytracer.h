@@ -24,18 +24,38 @@ typedef enum Falloff {
     FALLOFF_NONE
 } Falloff;
 
-/* A point that shines the same in all directions. */
+typedef enum LightKind {
+    LIGHT_POINT,       /* shines the same in all directions from position */
+    LIGHT_DIRECTIONAL, /* comes from infinitely far along direction, the same everywhere */
+    LIGHT_SPOT,        /* a point light in a cone round direction */
+    LIGHT_AREA         /* the mean of countU x countV point lights on a parallelogram round position */
+} LightKind;
+
 typedef struct Light {
     Vector3D position;
     Color3f color; /* linear, at least 0, not limited to 1 */
     Falloff falloff;
+    LightKind kind;
+    Vector3D direction; /* directional: the way the light travels; spot: the cone's axis; of unit length */
+    double innerAngle;  /* spot: full strength up to this angle from the axis, in degrees, 0 .. outerAngle */
+    double outerAngle;  /* spot: none from this angle on, at most 90 */
+    double tightness;   /* spot: times cos(angle)^tightness, at least 0 */
+    Vector3D edgeU, edgeV; /* area: its whole sides */
+    int countU, countV;    /* area: point lights along each side, at least 1; the outermost on the border */
 } Light;
+
+typedef enum Projection {
+    PROJECTION_PERSPECTIVE,
+    PROJECTION_ORTHOGRAPHIC
+} Projection;
 
 typedef struct Camera {
     Vector3D position;
     Vector3D direction; /* of any length but 0 */
     Vector3D up;        /* not parallel to direction */
-    double fov;         /* the vertical angle of the picture in degrees, 0 < fov < 180 */
+    double fov;         /* perspective: the vertical angle of the picture in degrees, 0 < fov < 180 */
+    Projection projection;
+    double viewHeight; /* orthographic: the height of the picture in scene units, above 0 */
 } Camera;
 
 typedef struct ImageSettings {
@@ -47,21 +67,40 @@ typedef struct ImageSettings {
 typedef struct RenderSettings {
     ShadingModel model;
     bool shadows;
-    double shadowBias; /* NAN: the tracer's own rule (see isInShadow); else, in scene units and at least
+    double shadowBias; /* NAN: the tracer's own rule (see offsetStart); else, in scene units and at least
                         * 0: a blocker counts when it is farther than this along the shadow ray */
+    int samples;       /* samples x samples rays a pixel, at least 1 */
+    int maxDepth;      /* rays in a chain, the camera's counts 1; a ray past it is black */
+    Color3f ambient;   /* light from everywhere, which a material's ambient returns */
 } RenderSettings;
+
+/* What a ray sees that meets nothing: one colour, or two mixed by t = (1 + direction.y) / 2, t = 1 being
+ * the top. */
+typedef struct Background {
+    Color3f bottom;
+    Color3f top; /* of a gradient */
+    bool isGradient;
+} Background;
+
+/* What a ray of length d sees has the weight exp(-d / distance), the fog's colour the rest. */
+typedef struct Fog {
+    Color3f color;
+    double distance; /* above 0; 0 is no fog */
+} Fog;
 
 /* What an author wrote. The arrays grow as things are added and belong to the scene. */
 typedef struct Scene {
     ImageSettings image;
     Camera camera;
     RenderSettings render;
-    Color3f background;
+    Background background;
+    Fog fog;
     Light *lights;
     size_t lightCount, lightCapacity;
     Object *objects;
     size_t objectCount, objectCapacity;
-    Tolerance tolerance; /* for the comparison with POV-Ray */
+    Tolerance tolerance;        /* for the comparison with POV-Ray */
+    struct SceneMemory *memory; /* what allocateInScene gave */
 } Scene;
 
 /* A light with the handout's falloff, 1/d^2. */
@@ -73,7 +112,12 @@ Light createLight(Vector3D position, Color3f color);
 Scene createScene(void);
 void freeScene(Scene *scene);
 
-/* Add a copy. False when memory runs out, and then the scene is as before. */
+/* Zeroed memory that lives as long as the scene, for transforms, patterns and texels; NULL when memory runs
+ * out. */
+void *allocateInScene(Scene *scene, size_t size);
+
+/* Add a copy, which from then on owns what the object owns. False when memory runs out, and then the scene is
+ * as before. */
 bool addLightToScene(Scene *scene, Light light);
 bool addObjectToScene(Scene *scene, Object object);
 bool addSphereToScene(Scene *scene, Sphere sphere);
@@ -92,12 +136,14 @@ void lambertRaytracing(Scene scene, Framebuffer *framebuffer);
 void phongRaytracing(Scene scene, Framebuffer *framebuffer);
 
 /* The camera as three vectors: the ray through the point (u, v) of the picture, both in -1/2..1/2, u to
- * the right and v up, has the direction forward + u right + v up. */
+ * the right and v up, has the direction forward + u right + v up and starts at position; orthographic, it
+ * has the direction forward and starts at position + u right + v up. */
 typedef struct CameraFrame {
+    Projection projection;
     Vector3D position;
     Vector3D forward; /* of unit length */
-    Vector3D right;   /* the picture's width at distance 1 */
-    Vector3D up;      /* its height there */
+    Vector3D right;   /* the picture's width, of a perspective camera at distance 1 */
+    Vector3D up;      /* its height, likewise */
 } CameraFrame;
 
 CameraFrame cameraFrame(const Camera *camera, int width, int height);
@@ -105,6 +151,30 @@ CameraFrame cameraFrame(const Camera *camera, int width, int height);
 /* The ray through a point of the picture in pixels: (0, 0) is its top left corner, the middle of the
  * first pixel (0.5, 0.5). */
 Ray cameraRay(const CameraFrame *frame, double x, double y, int width, int height);
+
+/* What a light sends to a point, if nothing is between. */
+typedef struct ArrivingLight {
+    Vector3D direction; /* to the light, of unit length */
+    Vector3D position;  /* where it comes from; not of a directional light */
+    double distance;    /* to there; INFINITY of a directional light */
+    Color3f color;      /* after falloff and cone; black outside the cone */
+} ArrivingLight;
+
+/* The point lights that a light stands for: 1, or those of an area. */
+int lightSampleCount(const Light *light);
+ArrivingLight lightArriving(const Light *light, int sample, Vector3D point);
+
+/* Where a point light of an area is; of others their position. */
+Vector3D lightSamplePosition(const Light *light, int sample);
+
+/* The model of a material in this scene. */
+static inline ShadingModel materialModel(const Scene *scene, const Material *material)
+{
+    return material->model == MODEL_OF_SCENE ? scene->render.model : material->model;
+}
+
+/* What goes through a surface: its transmission, or black where its model has none. */
+Color3f effectiveTransmission(const Scene *scene, const Material *material);
 
 /* How many rays were traced. */
 typedef struct RayCounts {

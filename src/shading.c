@@ -7,7 +7,7 @@
 
 Material createMaterial(Color3f diffuse, Color3f specular, float shininess)
 {
-    return (Material){diffuse, specular, shininess};
+    return (Material){.diffuse = diffuse, .specular = specular, .shininess = shininess, .ior = 1};
 }
 
 Material defaultMaterial(void)
@@ -26,6 +26,16 @@ Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, V
     /* specFactor = max(0, dot(R, V))^shininess */
     Vector3D r = reflect(multVector(l, -1), n);
     double cosine = dot(r, v);
+    if (!(cosine > 0))
+        return createColor(0, 0, 0);
+    return scaleColor(light, pow(cosine, (double)material->shininess));
+}
+
+Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v)
+{
+    Vector3D half = multVector(addVectors(v, l), 0.5);
+    double length = norm(half);
+    double cosine = length > 0 ? dot(half, n) / length : 0;
     if (!(cosine > 0))
         return createColor(0, 0, 0);
     return scaleColor(light, pow(cosine, (double)material->shininess));

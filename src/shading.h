@@ -8,19 +8,32 @@
 
 #include "colors.h"
 #include "geometry.h"
+#include "patterns/pattern.h"
 
+/* The models, each adding a term: simple (unlit), Lambert (diffuse), Phong (diffuse and specular); Blinn's
+ * has its highlight by the half vector. */
+typedef enum ShadingModel {
+    MODEL_OF_SCENE, /* of a material: the scene's model */
+    MODEL_SIMPLE,
+    MODEL_LAMBERT,
+    MODEL_PHONG,
+    MODEL_BLINN_PHONG
+} ShadingModel;
+
+/* All colours linear, at least 0. What is all zero plays no part, so {diffuse, specular, shininess} is a
+ * whole material. */
 typedef struct Material {
     Color3f diffuse;
     Color3f specular;
-    float shininess; /* the exponent of the highlight, at least 0; larger is smaller and sharper */
+    float shininess;      /* the exponent of the highlight, at least 0; larger is smaller and sharper */
+    Color3f ambient;      /* times the scene's ambient light */
+    Color3f emission;     /* light of its own, which lights nothing else */
+    Color3f reflection;   /* share of what comes along the mirrored ray */
+    Color3f transmission; /* share of what comes along the refracted ray */
+    float ior;            /* index of refraction, above 0; counts where transmission does */
+    ShadingModel model;
+    const Pattern *pattern; /* gives the diffuse colour instead, or NULL; not owned */
 } Material;
-
-/* The models, each adding a term: simple (unlit), Lambert (diffuse), Phong (diffuse and specular). */
-typedef enum ShadingModel {
-    MODEL_SIMPLE,
-    MODEL_LAMBERT,
-    MODEL_PHONG
-} ShadingModel;
 
 Material createMaterial(Color3f diffuse, Color3f specular, float shininess);
 
@@ -34,5 +47,9 @@ Color3f diffuseReflection(const Material *material, Color3f light, Vector3D n, V
  * specular colour Ispec multiplies the sum over all lights. It has no factor dot(N, L): whoever calls it
  * must have left out the lights behind the surface. */
 Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v);
+
+/* Blinn's highlight without its colour, Lc * max(0, dot(N, H))^shininess, H halfway between L and V (Blinn
+ * 1977, "Models of light reflection for computer synthesized pictures", section 3). */
+Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v);
 
 #endif

@@ -26,8 +26,8 @@ static Box boxOfCube(const Cube *cube)
     return createBox(subVectors(cube->center, corner), addVectors(cube->center, corner), cube->material);
 }
 
-/* The nearest hit at t > 0, and the axis of its face: 0, 1, 2 for x, y, z. INFINITY on a miss. */
-static double hitBox(const Box *box, const Ray *ray, int *axis)
+/* Report where the ray enters and leaves; the part of a hit is the axis of its face: 0, 1, 2 for x, y, z. */
+static void hitBox(const Box *box, const Ray *ray, HitSink *sink)
 {
     const double origin[3] = {ray->origin.x, ray->origin.y, ray->origin.z};
     const double direction[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
@@ -40,7 +40,7 @@ static double hitBox(const Box *box, const Ray *ray, int *axis)
         /* A ray that runs along a slab is in it all the time or never. */
         if (direction[i] == 0) {
             if (origin[i] < min[i] || origin[i] > max[i])
-                return INFINITY;
+                return;
             continue;
         }
         double t1 = ((direction[i] > 0 ? min[i] : max[i]) - origin[i]) / direction[i];
@@ -55,18 +55,16 @@ static double hitBox(const Box *box, const Ray *ray, int *axis)
         }
     }
     if (entry > exit)
-        return INFINITY;
-    *axis = entry > 0 ? entryAxis : exitAxis;
-    if (entry > 0)
-        return entry;
-    return exit > 0 ? exit : INFINITY;
+        return;
+    reportHit(sink, entry, entryAxis, 0, 0);
+    reportHit(sink, exit, exitAxis, 0, 0);
 }
 
-/* The unit vector along an axis, against the ray. */
-static Vector3D faceNormal(int axis, const Ray *ray)
+static Vector3D faceNormal(const Object *object, const Hit *hit, Vector3D position)
 {
-    Vector3D n = createVector(axis == 0, axis == 1, axis == 2);
-    return turnedToRay(n, ray);
+    (void)object;
+    (void)position;
+    return createVector(hit->part == 0, hit->part == 1, hit->part == 2);
 }
 
 static bool isInside(const Box *box, Vector3D p)
@@ -88,18 +86,9 @@ static void writePov(const Box *box, double scale, Text *pov)
     textAppendPovVector(pov, box->max, scale);
 }
 
-static double boxDistance(const Object *object, const Ray *ray)
+static void boxIntersect(const Object *object, const Ray *ray, HitSink *sink)
 {
-    int axis;
-    return hitBox(&object->box, ray, &axis);
-}
-
-static Vector3D boxNormal(const Object *object, const Ray *ray, Vector3D position)
-{
-    (void)position;
-    int axis = 0;
-    hitBox(&object->box, ray, &axis);
-    return faceNormal(axis, ray);
+    hitBox(&object->box, ray, sink);
 }
 
 static bool boxContains(const Object *object, Vector3D point)
@@ -123,22 +112,19 @@ static void boxWritePov(const Object *object, double scale, Text *pov)
     writePov(&object->box, scale, pov);
 }
 
-const Shape boxShape = {"box", boxDistance, boxNormal, boxContains, boxBounds, boxMagnitude, boxWritePov};
+const Shape boxShape = {.name = "box",
+                        .intersect = boxIntersect,
+                        .normal = faceNormal,
+                        .contains = boxContains,
+                        .hasInside = alwaysTrue,
+                        .bounds = boxBounds,
+                        .magnitude = boxMagnitude,
+                        .writePov = boxWritePov};
 
-static double cubeDistance(const Object *object, const Ray *ray)
+static void cubeIntersect(const Object *object, const Ray *ray, HitSink *sink)
 {
-    int axis;
     Box box = boxOfCube(&object->cube);
-    return hitBox(&box, ray, &axis);
-}
-
-static Vector3D cubeNormal(const Object *object, const Ray *ray, Vector3D position)
-{
-    (void)position;
-    int axis = 0;
-    Box box = boxOfCube(&object->cube);
-    hitBox(&box, ray, &axis);
-    return faceNormal(axis, ray);
+    hitBox(&box, ray, sink);
 }
 
 static bool cubeContains(const Object *object, Vector3D point)
@@ -166,8 +152,14 @@ static void cubeWritePov(const Object *object, double scale, Text *pov)
     writePov(&box, scale, pov);
 }
 
-const Shape cubeShape = {"cube",     cubeDistance,  cubeNormal,  cubeContains,
-                         cubeBounds, cubeMagnitude, cubeWritePov};
+const Shape cubeShape = {.name = "cube",
+                         .intersect = cubeIntersect,
+                         .normal = faceNormal,
+                         .contains = cubeContains,
+                         .hasInside = alwaysTrue,
+                         .bounds = cubeBounds,
+                         .magnitude = cubeMagnitude,
+                         .writePov = cubeWritePov};
 
 bool intersectsBox(Ray ray, Box box, Intersection *intersection)
 {

@@ -11,20 +11,20 @@ Plane createPlane(Vector3D point, Vector3D normal, Material material)
     return (Plane){material, point, normalize(normal)};
 }
 
-static double planeDistance(const Object *object, const Ray *ray)
+static void planeIntersect(const Object *object, const Ray *ray, HitSink *sink)
 {
     const Plane *plane = &object->plane;
     double slope = dot(plane->normal, ray->direction);
-    if (slope == 0)
-        return INFINITY;
-    double t = (dot(plane->normal, plane->point) - dot(plane->normal, ray->origin)) / slope;
-    return t > 0 ? t : INFINITY;
+    if (slope != 0)
+        reportHit(sink, (dot(plane->normal, plane->point) - dot(plane->normal, ray->origin)) / slope, 0, 0,
+                  0);
 }
 
-static Vector3D planeNormal(const Object *object, const Ray *ray, Vector3D position)
+static Vector3D planeNormal(const Object *object, const Hit *hit, Vector3D position)
 {
+    (void)hit;
     (void)position;
-    return turnedToRay(object->plane.normal, ray);
+    return object->plane.normal;
 }
 
 static bool planeContains(const Object *object, Vector3D point)
@@ -52,8 +52,14 @@ static void planeWritePov(const Object *object, double scale, Text *pov)
     textAppendPovNumber(pov, dot(object->plane.normal, object->plane.point) * scale);
 }
 
-const Shape planeShape = {"plane",     planeDistance,  planeNormal,  planeContains,
-                          planeBounds, planeMagnitude, planeWritePov};
+const Shape planeShape = {.name = "plane",
+                          .intersect = planeIntersect,
+                          .normal = planeNormal,
+                          .contains = planeContains,
+                          .hasInside = alwaysTrue,
+                          .bounds = planeBounds,
+                          .magnitude = planeMagnitude,
+                          .writePov = planeWritePov};
 
 bool intersectsPlane(Ray ray, Plane plane, Intersection *intersection)
 {

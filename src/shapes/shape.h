@@ -9,9 +9,15 @@
 
 #include "base/text.h"
 #include "shapes/box.h"
+#include "shapes/cone.h"
+#include "shapes/csg.h"
+#include "shapes/disc.h"
 #include "shapes/intersection.h"
+#include "shapes/mesh.h"
 #include "shapes/plane.h"
 #include "shapes/sphere.h"
+#include "shapes/torus.h"
+#include "shapes/triangle.h"
 
 #include <stdbool.h>
 
@@ -20,7 +26,13 @@
     X(SHAPE_SPHERE, Sphere, sphere)                                                                          \
     X(SHAPE_CUBE, Cube, cube)                                                                                \
     X(SHAPE_BOX, Box, box)                                                                                   \
-    X(SHAPE_PLANE, Plane, plane)
+    X(SHAPE_PLANE, Plane, plane)                                                                             \
+    X(SHAPE_TRIANGLE, Triangle, triangle)                                                                    \
+    X(SHAPE_CONE, Cone, cone)                                                                                \
+    X(SHAPE_DISC, Disc, disc)                                                                                \
+    X(SHAPE_TORUS, Torus, torus)                                                                             \
+    X(SHAPE_MESH, Mesh, mesh)                                                                                \
+    X(SHAPE_CSG, Csg, csg)
 
 typedef enum ShapeKind {
 #define X(kind, Type, name) kind,
@@ -31,7 +43,9 @@ typedef enum ShapeKind {
 
 typedef struct Object {
     ShapeKind kind;
-    int line; /* where the scene file has it, from 1; 0: made by a program */
+    int line;                   /* where the scene file has it, from 1; 0: made by a program */
+    bool noShadow;              /* it blocks no light */
+    const Transform *transform; /* from object to world space, or NULL where they are the same; not owned */
     union {
         Material material;
 #define X(kind, Type, name) Type name;
@@ -40,19 +54,25 @@ typedef struct Object {
     };
 } Object;
 
+/* What a shape can do. All of it is in the object's own space, before its transform. */
 typedef struct Shape {
     const char *name; /* the key in a scene file */
 
-    /* The distance of the nearest hit at t > 0; INFINITY on a miss. */
-    double (*distance)(const Object *object, const Ray *ray);
+    /* Report every hit at t > 0, in any order. ray: of unit direction. A shape that looks at more than a few
+     * surfaces may leave out what is farther than sink->nearest, unless sink->keepAll. */
+    void (*intersect)(const Object *object, const Ray *ray, HitSink *sink);
 
-    /* The unit normal where distance() said, turned to the ray's side; position is pointOnRay there. */
-    Vector3D (*normal)(const Object *object, const Ray *ray, Vector3D position);
+    /* The unit normal at a hit, on either side; position is the hit's. */
+    Vector3D (*normal)(const Object *object, const Hit *hit, Vector3D position);
 
-    /* Whether the point is strictly inside. */
+    /* Whether the point is strictly inside; false for a shape without an inside. */
     bool (*contains)(const Object *object, Vector3D point);
 
-    /* The smallest box round it; false for a shape without end, and then bounds is untouched. */
+    /* Whether it divides space into inside and outside, so that it can be a part of CSG. */
+    bool (*hasInside)(const Object *object);
+
+    /* The smallest box round it, or a little larger; false for a shape without end, and then bounds is
+     * untouched. */
     bool (*bounds)(const Object *object, Bounds *bounds);
 
     /* The largest magnitude among the numbers its hits are computed from: rounding errors of a hit are
@@ -62,6 +82,9 @@ typedef struct Shape {
     /* POV-Ray's words for it up to the material, without the closing brace, e.g. "sphere { <0, 0, -5>,
      * 1.5"; all lengths are multiplied by scale. */
     void (*writePov)(const Object *object, double scale, Text *pov);
+
+    /* Free what the object owns beside itself; NULL where there is nothing. */
+    void (*release)(Object *object);
 } Shape;
 
 #define X(kind, Type, name) extern const Shape name##Shape;
@@ -71,8 +94,40 @@ SHAPES(X)
 /* The operations of the object's shape. */
 const Shape *objectShape(const Object *object);
 
+/* Free what the object owns beside itself. */
+void releaseObject(Object *object);
+
+/* For shapes that always, or never, have an inside; and without one, for contains. */
+bool alwaysTrue(const Object *object);
+bool alwaysFalse(const Object *object);
+bool containsNothing(const Object *object, Vector3D point);
+
+/* The following are in world space. */
+
+/* Report every hit of the ray (of unit direction) at t > sink->above. */
+void intersectObject(const Object *object, const Ray *ray, HitSink *sink);
+
+/* The unit normal at a hit on hit->object, turned to the ray's side. */
+Vector3D objectNormal(const Ray *ray, const Hit *hit, Vector3D position);
+
+/* Whether the point is strictly inside. */
+bool objectContains(const Object *object, Vector3D point);
+
+/* A box round it; false for a shape without end. */
+bool objectBounds(const Object *object, Bounds *bounds);
+
+/* How large the numbers are that a hit of this ray at this distance is computed from: its rounding error is
+ * some 2^-50 of it. */
+double hitMagnitude(const Object *object, const Ray *ray, double distance);
+
 /* Whether the ray meets the object at t > 0; on a miss the intersection is untouched. */
 bool intersectsObject(const Ray *ray, const Object *object, Intersection *intersection);
+
+/* The point in the object's own space, where its pattern is. */
+Vector3D objectSpacePoint(const Object *object, Vector3D worldPoint);
+
+/* The material's pattern, if it has one, worked out at the point. */
+Material materialAt(const Object *object, Vector3D worldPoint);
 
 /* Append "<x, y, z>", each coordinate times scale, in full precision. */
 void textAppendPovVector(Text *pov, Vector3D v, double scale);

@@ -17,7 +17,7 @@ Sphere createSphere(Vector3D center, double radius, Material material)
     return (Sphere){material, center, radius};
 }
 
-static double sphereDistance(const Object *object, const Ray *ray)
+static void sphereIntersect(const Object *object, const Ray *ray, HitSink *sink)
 {
     const Sphere *sphere = &object->sphere;
     Vector3D f = subVectors(ray->origin, sphere->center);
@@ -28,24 +28,19 @@ static double sphereDistance(const Object *object, const Ray *ray)
     Vector3D nearest = addVectors(f, multVector(ray->direction, b));
     double discriminant = squaredRadius - dot(nearest, nearest);
     if (!(discriminant >= 0))
-        return INFINITY;
+        return;
 
-    /* Solve for the two distances, nearer <= farther. */
+    /* Solve for the two distances. */
     double c = dot(f, f) - squaredRadius;
     double q = b + copysign(sqrt(discriminant), b);
-    double other = q != 0 ? c / q : 0;
-    double nearer = fmin(q, other), farther = fmax(q, other);
-
-    /* Take the nearest one in front of the origin. */
-    if (nearer > 0)
-        return nearer;
-    return farther > 0 ? farther : INFINITY;
+    reportHit(sink, q, 0, 0, 0);
+    reportHit(sink, q != 0 ? c / q : 0, 0, 0, 0);
 }
 
-static Vector3D sphereNormal(const Object *object, const Ray *ray, Vector3D position)
+static Vector3D sphereNormal(const Object *object, const Hit *hit, Vector3D position)
 {
-    Vector3D n = multVector(subVectors(position, object->sphere.center), 1 / object->sphere.radius);
-    return turnedToRay(n, ray);
+    (void)hit;
+    return multVector(subVectors(position, object->sphere.center), 1 / object->sphere.radius);
 }
 
 static bool sphereContains(const Object *object, Vector3D point)
@@ -74,8 +69,14 @@ static void sphereWritePov(const Object *object, double scale, Text *pov)
     textAppendPovNumber(pov, object->sphere.radius * scale);
 }
 
-const Shape sphereShape = {"sphere",     sphereDistance,  sphereNormal,  sphereContains,
-                           sphereBounds, sphereMagnitude, sphereWritePov};
+const Shape sphereShape = {.name = "sphere",
+                           .intersect = sphereIntersect,
+                           .normal = sphereNormal,
+                           .contains = sphereContains,
+                           .hasInside = alwaysTrue,
+                           .bounds = sphereBounds,
+                           .magnitude = sphereMagnitude,
+                           .writePov = sphereWritePov};
 
 bool intersectsSphere(Ray ray, Sphere sphere, Intersection *intersection)
 {

@@ -1,0 +1,109 @@
+/* scene_objects.c - a Scene and what is put into it; see raytracer.h. */
+#include "raytracer.h"
+
+#include <stdlib.h>
+
+/* One piece of memory that the scene owns, before what allocateInScene returned. */
+typedef struct SceneMemory {
+    struct SceneMemory *next;
+    max_align_t data[];
+} SceneMemory;
+
+Light createLight(Vector3D position, Color3f color)
+{
+    return (Light){
+        .kind = LIGHT_POINT, .position = position, .color = color, .falloff = FALLOFF_INVERSE_SQUARE};
+}
+
+Scene createScene(void)
+{
+    return (Scene){
+        .image = {.width = 640, .height = 480, .bitDepth = 8, .encoding = ENCODING_SRGB},
+        .camera = {.direction = {0, 0, -1}, .up = {0, 1, 0}, .fov = 60},
+        .render = {.model = MODEL_PHONG, .shadows = true, .shadowBias = NAN, .samples = 1, .maxDepth = 5},
+        .tolerance = TOLERANCE_DEFAULT,
+    };
+}
+
+void freeScene(Scene *scene)
+{
+    for (size_t i = 0; i < scene->objectCount; i++)
+        releaseObject(&scene->objects[i]);
+    free(scene->lights);
+    free(scene->objects);
+    scene->lights = NULL;
+    scene->objects = NULL;
+    scene->lightCount = scene->lightCapacity = 0;
+    scene->objectCount = scene->objectCapacity = 0;
+    while (scene->memory != NULL) {
+        SceneMemory *next = scene->memory->next;
+        free(scene->memory);
+        scene->memory = next;
+    }
+}
+
+void *allocateInScene(Scene *scene, size_t size)
+{
+    if (size > SIZE_MAX - sizeof(SceneMemory))
+        return NULL;
+    SceneMemory *memory = calloc(1, sizeof(SceneMemory) + size);
+    if (memory == NULL)
+        return NULL;
+    memory->next = scene->memory;
+    scene->memory = memory;
+    return memory->data;
+}
+
+/* Make room for one more item; returns the array, or NULL when memory runs out. */
+static void *growArray(void *array, size_t count, size_t *capacity, size_t itemSize)
+{
+    if (count < *capacity)
+        return array;
+    size_t larger = *capacity < 8 ? 8 : *capacity + *capacity / 2;
+    if (larger > SIZE_MAX / itemSize)
+        return NULL;
+    void *grown = realloc(array, larger * itemSize);
+    if (grown != NULL)
+        *capacity = larger;
+    return grown;
+}
+
+bool addLightToScene(Scene *scene, Light light)
+{
+    Light *lights = growArray(scene->lights, scene->lightCount, &scene->lightCapacity, sizeof *lights);
+    if (lights == NULL)
+        return false;
+    scene->lights = lights;
+    scene->lights[scene->lightCount++] = light;
+    return true;
+}
+
+bool addObjectToScene(Scene *scene, Object object)
+{
+    Object *objects = growArray(scene->objects, scene->objectCount, &scene->objectCapacity, sizeof *objects);
+    if (objects == NULL)
+        return false;
+    scene->objects = objects;
+    scene->objects[scene->objectCount++] = object;
+    return true;
+}
+
+bool addSphereToScene(Scene *scene, Sphere sphere)
+{
+    return addObjectToScene(scene, (Object){.kind = SHAPE_SPHERE, .sphere = sphere});
+}
+
+bool addCubeToScene(Scene *scene, Cube cube)
+{
+    return addObjectToScene(scene, (Object){.kind = SHAPE_CUBE, .cube = cube});
+}
+
+bool addBoxToScene(Scene *scene, Box box)
+{
+    return addObjectToScene(scene, (Object){.kind = SHAPE_BOX, .box = box});
+}
+
+bool addPlaneToScene(Scene *scene, Plane plane)
+{
+    return addObjectToScene(scene, (Object){.kind = SHAPE_PLANE, .plane = plane});
+}

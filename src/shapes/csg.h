@@ -1,0 +1,22 @@
+/* csg.h - solids made of solids: their union, intersection or difference. */
+#ifndef ECLAIRAGE_SHAPES_CSG_H
+#define ECLAIRAGE_SHAPES_CSG_H
+
+#include "shapes/intersection.h"
+
+#include <stddef.h>
+
+typedef enum CsgOperation {
+    CSG_UNION,        /* in any part, without the surfaces inside */
+    CSG_INTERSECTION, /* in all parts */
+    CSG_DIFFERENCE    /* in the first part and in none of the others */
+} CsgOperation;
+
+typedef struct Csg {
+    Material material; /* not used: each part has its own */
+    CsgOperation operation;
+    struct Object *parts; /* each in world space by its own transform; owned, and so is what they own */
+    size_t partCount;     /* at least 1 */
+} Csg;
+
+#endif
