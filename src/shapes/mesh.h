@@ -18,6 +18,8 @@ typedef struct MeshTriangle {
     uint32_t normals[3]; /* of a smooth mesh */
 } MeshTriangle;
 
+struct MeshNode;
+
 typedef struct MeshData {
     Vector3D *vertices;
     size_t vertexCount;
