@@ -62,7 +62,8 @@ void finishCamera(SceneReader *reader, const GivenKeys *given, void *values, voi
                     "the camera looks along 'up', so it cannot tell what is up in the picture");
         return;
     }
-    *built = (Camera){camera->position, direction, camera->up, camera->fov};
+    *built =
+        (Camera){.position = camera->position, .direction = direction, .up = camera->up, .fov = camera->fov};
 }
 
 /* ---- Lights and objects ---- */

@@ -189,7 +189,7 @@ static const FormatKey sceneKeys[] = {
     {"image", FORMAT_MAPPING, offsetof(Scene, image), "{}", .mapping = &imageFormat, .help = "the picture that is written"},
     {"camera", FORMAT_MAPPING, offsetof(Scene, camera), "{}", .mapping = &cameraFormat, .help = "where the picture is taken from"},
     {"render", FORMAT_MAPPING, offsetof(Scene, render), "{}", .mapping = &renderFormat, .help = "how light is computed"},
-    {"background", FORMAT_COLOR, offsetof(Scene, background), "[0, 0, 0]", .help = "what is seen where no object is"},
+    {"background", FORMAT_COLOR, offsetof(Scene, background.bottom), "[0, 0, 0]", .help = "what is seen where no object is"},
     {"materials", FORMAT_NAMED, 0, "{}", .mapping = &materialFormat, .help = "materials by name, for use by many objects"},
     {"lights", FORMAT_KINDS, 0, "[]", .kinds = &lightKinds, .help = "what shines"},
     {"objects", FORMAT_KINDS, 0, "[]", .kinds = &objectKinds, .help = "what is seen"},

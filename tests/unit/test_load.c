@@ -90,7 +90,7 @@ static void assertSameSettings(const Scene *a, const Scene *b)
     assert_int_equal(a->render.model, b->render.model);
     assert_int_equal(a->render.shadows, b->render.shadows);
     assert_true(isnan(a->render.shadowBias) && isnan(b->render.shadowBias));
-    assertColor(a->background, b->background.r, b->background.g, b->background.b);
+    assertColor(a->background.bottom, b->background.bottom.r, b->background.bottom.g, b->background.bottom.b);
     assert_true(a->tolerance.fail == b->tolerance.fail);
     assert_true(a->tolerance.failPercent == b->tolerance.failPercent);
     assert_true(a->tolerance.hardFail == b->tolerance.hardFail);
@@ -163,7 +163,7 @@ static void everyKeyIsRead(void **state)
     assert_int_equal(scene.render.model, MODEL_LAMBERT);
     assert_false(scene.render.shadows);
     assert_true(scene.render.shadowBias == 0.25);
-    assertColor(scene.background, 0.25F, 0.5F, 10);
+    assertColor(scene.background.bottom, 0.25F, 0.5F, 10);
     assert_true(scene.tolerance.fail == 3.1e-5 && scene.tolerance.failPercent == 0);
     assert_true(scene.tolerance.hardFail == 0.5 && scene.tolerance.rmse == 0.1);
     assert_true(scene.tolerance.ssim == 0.9 && scene.tolerance.flip == 0.2);
