@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static void warn(SceneReader *reader, Place place, const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -19,6 +20,13 @@ static void warn(SceneReader *reader, Place place, const char *hint, const char 
     addDiagnostic(reader->diagnostics, reader->source, SEVERITY_WARNING, place, hint, message);
 }
 
+/* The section's key; the file's first character when it is left out. */
+static Place placeOfSection(const GivenKeys *given, const char *name)
+{
+    const YamlNode *key = given->keys[findFormatKey(given->format, name, strlen(name))];
+    return key != NULL ? key->place : (Place){1, 1, 1};
+}
+
 /* Without lights only the simple model shows anything. */
 static void warnOfDarkness(SceneReader *reader, const GivenKeys *given)
 {
@@ -26,14 +34,15 @@ static void warnOfDarkness(SceneReader *reader, const GivenKeys *given)
     if (scene->render.model == MODEL_SIMPLE)
         return;
     if (scene->lightCount == 0) {
-        warn(reader, placeOfKey(given, "lights"), "add a light, or use the model simple, which needs none",
+        warn(reader, placeOfSection(given, "lights"),
+             "add a light, or use the model simple, which needs none",
              "there is no light: every object comes out black");
         return;
     }
     for (size_t i = 0; i < scene->lightCount; i++)
         if (!colorIsBlack(scene->lights[i].color))
             return;
-    warn(reader, placeOfKey(given, "lights"), "give a light a color above 0",
+    warn(reader, placeOfSection(given, "lights"), "give a light a color above 0",
          "every light is black: every object comes out black");
 }
 
@@ -136,7 +145,7 @@ void addSceneWarnings(SceneReader *reader, const GivenKeys *given)
 {
     const Scene *scene = reader->scene;
     if (scene->objectCount == 0) {
-        warn(reader, placeOfKey(given, "objects"), "add an object to the section 'objects'",
+        warn(reader, placeOfSection(given, "objects"), "add an object to the section 'objects'",
              "there is no object: the picture shows only the background");
         return;
     }

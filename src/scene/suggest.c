@@ -55,7 +55,7 @@ void tryCandidate(Suggestion *suggestion, const char *candidate)
     if (aLength > LONGEST_WORD || bLength > LONGEST_WORD || aLength == 0 || bLength == 0)
         return;
     size_t longer = aLength > bLength ? aLength : bLength;
-    int limit = longer < 6 ? 1 : longer < 9 ? 2 : 3;
+    int limit = longer < 3 ? 0 : longer < 6 ? 1 : longer < 9 ? 2 : 3;
     if (suggestion->best != NULL)
         limit = suggestion->distance - 1;
     size_t difference = longer - (aLength < bLength ? aLength : bLength);

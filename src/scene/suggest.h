@@ -17,8 +17,8 @@ typedef struct Suggestion {
     int distance;
 } Suggestion;
 
-/* Try one more candidate. One is near enough when at most a third of the longer word's letters (at least
- * 1, at most 3) must change; of equally near ones the first stays. */
+/* Try one more candidate. One is near enough when no more of the longer word's letters must change than 1
+ * of 3, 2 of 6 or 3 of 9; of equally near ones the first stays. */
 void tryCandidate(Suggestion *suggestion, const char *candidate);
 
 #endif
