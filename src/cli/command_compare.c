@@ -149,8 +149,20 @@ static void appendCommandLine(Text *text, const Arguments *arguments, const char
 static Text pathInFolder(const Run *run, const char *name)
 {
     Text path = {0};
-    textAppendFormat(&path, "%s/%s", run->folder, name);
+    bool endsInSlash = run->folder[strlen(run->folder) - 1] == '/';
+    textAppendFormat(&path, "%s%s%s", run->folder, endsInSlash ? "" : "/", name);
     return path;
+}
+
+/* STATUS_USAGE when the .pov would be written over its scene. */
+static Status protectScene(const Run *run, const Job *job)
+{
+    Text path = pathInFolder(run, textString(&job->pov));
+    bool isScene = isSameFile(textString(&path), job->path);
+    textFree(&path);
+    return isScene ? statusError(STATUS_USAGE, "the POV-Ray scene would overwrite the scene itself: choose "
+                                               "another folder with --out, or end its name in .yaml")
+                   : statusOk();
 }
 
 static Status writeTextFile(const Run *run, const char *name, const Text *text)
@@ -234,6 +246,8 @@ static Status compareScene(Run *run, Job *job, Scene *scene)
     Pictures pictures = {0};
     Status status = exportPov(scene, textString(&job->pov), &pov);
     if (statusIsOk(&status))
+        status = protectScene(run, job);
+    if (statusIsOk(&status))
         status = writeTextFile(run, textString(&job->pov), &pov);
     if (statusIsOk(&status))
         status = drawScene(run, job, scene, &pictures.ours);
@@ -275,7 +289,7 @@ static void runJob(void *context, size_t number)
     if (statusIsOk(&status)) {
         status = compareScene(run, job, &scene);
         freeScene(&scene);
-        if (!statusIsOk(&status) && status.code != STATUS_INTERRUPTED)
+        if (!statusIsOk(&status))
             appendSceneError(&job->messages, job->path, &status);
     }
     /* In the results the message stands alone, so it says the place. */
@@ -320,8 +334,11 @@ static int reportResults(const Run *run, const SceneResult *results)
         writeResultsText(results, run->count, colorOnOutput(), &words);
     int printed = printData(arguments->json ? &json : &words);
     textFree(&json);
-    if (written == 0)
-        printNote("the report is %s/index.html", run->folder);
+    if (written == 0) {
+        Text page = pathInFolder(run, "index.html");
+        printNote("the report is %s", textString(&page));
+        textFree(&page);
+    }
     highest = written > highest ? written : highest;
     return printed > highest ? printed : highest;
 }
