@@ -110,6 +110,7 @@ class Viewer {
     else { worstButton.disabled = true; worstButton.textContent = 'No pixel differs'; }
     this.listenToStage();
     this.root.dataset.mode = this.mode;
+    this.root.classList.toggle('stacked', this.width > 2.2 * this.height);
     this.box.after(this.root);
     this.box.classList.add('viewed');
     new ResizeObserver(() => { if (this.zoomed) this.place(); else this.fit(); }).observe(this.parts.stage);
