@@ -87,7 +87,9 @@ static void readRoot(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
         return;
     if (next != NEXT_MAPPING) {
         const YamlNode *root = next != NEXT_END ? readYamlNode(yaml) : NULL;
-        if (!yaml->failed && (root == NULL || !isSuspect(yaml, root)))
+        bool isReported =
+            yaml->failed || (root != NULL && (root->kind == NODE_ALIAS || isSuspect(yaml, root)));
+        if (!isReported)
             reportNoMapping(reader, root);
         return;
     }
