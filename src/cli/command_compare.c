@@ -63,8 +63,7 @@ typedef struct Pictures {
 /* Append the scene's file name without folder and extension, in letters that are harmless everywhere. */
 static void appendSafeName(Text *text, const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *base = strcmp(path, "-") == 0 ? "stdin" : slash != NULL ? slash + 1 : path;
+    const char *base = strcmp(path, "-") == 0 ? "stdin" : baseName(path);
     const char *dot = strrchr(base, '.');
     size_t length = dot != NULL && dot != base ? (size_t)(dot - base) : strlen(base);
     if (length > LONGEST_NAME)
