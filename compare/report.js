@@ -22,12 +22,12 @@ class Viewer {
     this.maxDifference = +box.dataset.maxDifference;
     this.fail = +box.dataset.fail;
     this.images = { ours: box.querySelector('.ours'), povray: box.querySelector('.povray') };
-    this.probe = { ...this.worst };
     this.held = false;
     this.mode = 'side';
     this.near = false;
     this.width = +box.dataset.width;
     this.height = +box.dataset.height;
+    this.probe = this.maxDifference > 0 ? { ...this.worst } : { x: this.width >> 1, y: this.height >> 1 };
     this.build();
   }
 
