@@ -252,7 +252,7 @@ int main(int count, char **arguments)
         textFree(&folder);
         if (!statusIsOk(&status)) {
             fprintf(stderr, "report_fixture: %s\n", status.message);
-            return status.code;
+            return (int)status.code;
         }
     }
     return 0;
