@@ -43,6 +43,22 @@ static bool isNew(Diagnostics *diagnostics, uint64_t hash)
     return true;
 }
 
+/* Make room for more items; false when memory runs out, which is noted. */
+static bool makeRoom(Diagnostics *diagnostics, size_t more)
+{
+    if (diagnostics->count + more <= diagnostics->capacity)
+        return true;
+    size_t capacity = 2 * diagnostics->capacity + more + 15;
+    Diagnostic *items = realloc(diagnostics->items, capacity * sizeof *items);
+    if (items == NULL) {
+        diagnostics->outOfMemory = true;
+        return false;
+    }
+    diagnostics->items = items;
+    diagnostics->capacity = capacity;
+    return true;
+}
+
 /* A printable copy, or NULL when memory runs out. */
 static char *copyPrintable(const char *bytes, size_t length)
 {
@@ -112,16 +128,8 @@ void addDiagnostic(Diagnostics *diagnostics, SourceText *source, Severity severi
     if (diagnostics->count >= DIAGNOSTICS_KEPT)
         return;
 
-    if (diagnostics->count == diagnostics->capacity) {
-        size_t capacity = diagnostics->capacity == 0 ? 16 : diagnostics->capacity * 2;
-        Diagnostic *items = realloc(diagnostics->items, capacity * sizeof *items);
-        if (items == NULL) {
-            diagnostics->outOfMemory = true;
-            return;
-        }
-        diagnostics->items = items;
-        diagnostics->capacity = capacity;
-    }
+    if (!makeRoom(diagnostics, 1))
+        return;
     Diagnostic item = {
         .severity = severity, .line = place.line, .column = place.column, .width = place.width};
     item.message = copyPrintable(message, strlen(message));
@@ -134,6 +142,19 @@ void addDiagnostic(Diagnostics *diagnostics, SourceText *source, Severity severi
         return;
     }
     diagnostics->items[diagnostics->count++] = item;
+}
+
+void moveDiagnostics(Diagnostics *to, Diagnostics *from)
+{
+    if (from->count > 0 && makeRoom(to, from->count)) {
+        memcpy(to->items + to->count, from->items, from->count * sizeof *from->items);
+        to->count += from->count;
+        from->count = 0;
+    }
+    to->errors += from->errors;
+    to->warnings += from->warnings;
+    to->outOfMemory = to->outOfMemory || from->outOfMemory;
+    diagnosticsFree(from);
 }
 
 void diagnosticsSort(Diagnostics *diagnostics)

@@ -48,6 +48,9 @@ typedef struct Diagnostics {
 void addDiagnostic(Diagnostics *diagnostics, SourceText *source, Severity severity, Place place,
                    const char *hint, const char *message);
 
+/* Append what from has, and empty from. The items of to keep their order, those of from come behind. */
+void moveDiagnostics(Diagnostics *to, Diagnostics *from);
+
 /* Sort by place; of two at the same place the one added first comes first. */
 void diagnosticsSort(Diagnostics *diagnostics);
 

@@ -14,8 +14,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* How a value is written, and what is stored at its offset. ORDER types: reader.c, write_schema.c,
- * write_reference.c switch over all of them. */
+/* How a value is written, and what is stored at its offset. ORDER types: reader.c, read_values.c,
+ * write_schema.c and write_reference.c switch over all of them. */
 typedef enum FormatType {
     FORMAT_NUMBER,    /* double; an optional one that is left out is NAN */
     FORMAT_FLOAT,     /* float */

@@ -155,8 +155,7 @@ Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnost
     Status status = outOfMemory   ? statusOutOfMemory()
                     : interrupted ? statusInterrupted()
                                   : statusOfDiagnostics(&found);
-    diagnosticsFree(diagnostics);
-    *diagnostics = found;
+    moveDiagnostics(diagnostics, &found);
     if (!statusIsOk(&status)) {
         freeScene(scene);
         *scene = createScene();

@@ -93,6 +93,19 @@ static bool isClearlyOutside(const Object *object, Vector3D point, Vector3D insi
     return !shape->contains(object, point) && !shape->contains(object, moved);
 }
 
+/* "inside the cube", "behind the plane". */
+typedef struct Where {
+    char text[40];
+} Where;
+
+static Where whereInside(const Object *object)
+{
+    Where where;
+    snprintf(where.text, sizeof where.text, "%s the %s", object->kind == SHAPE_PLANE ? "behind" : "inside",
+             objectShape(object)->name);
+    return where;
+}
+
 enum {
     /* Pairs of an object and a light that are looked at; a scene with more gets no such warnings, so that
      * loading stays linear. */
@@ -115,8 +128,8 @@ static void warnOfCameraInside(SceneReader *reader)
             outside++;
         if (outside == scene->lightCount) {
             warn(reader, reader->positionPlace, "move the camera out, or put a light inside",
-                 "the camera is inside the %s of line %d and every light is outside: all it sees is black",
-                 objectShape(object)->name, object->line);
+                 "the camera is %s of line %d and every light is outside: all surfaces it sees are black",
+                 whereInside(object).text, object->line);
             return;
         }
     }
@@ -135,8 +148,8 @@ static void warnOfLightsInside(SceneReader *reader)
                 !isClearlyOutside(object, scene->camera.position, position))
                 continue;
             warn(reader, reader->lightPlaces[i], "move the light out of it",
-                 "this light is inside the %s of line %d and lights nothing that the camera sees",
-                 objectShape(object)->name, object->line);
+                 "this light is %s of line %d and lights nothing that the camera sees",
+                 whereInside(object).text, object->line);
             break;
         }
 }

@@ -21,6 +21,14 @@
 
 #include <cmocka.h>
 
+#if defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#define SANITIZED __has_feature(address_sanitizer)
+#else
+#define SANITIZED 0
+#endif
+
 /* Load what must be right. */
 static Scene load(const char *yaml)
 {
@@ -469,12 +477,14 @@ static long peakKilobytes(void)
     return usage.ru_maxrss;
 }
 
-/* In a child process, so that its peak memory is its own: less than 1 kB for an object besides the text. */
+/* In a child process, so that its peak memory is its own. Promised is less than 1 kB for an object; keeping
+ * the file's tree would take about 800 bytes, reading item by item takes about 150. */
 static void hundredThousandObjectsTakeLittleMemory(void **state)
 {
     (void)state;
     enum {
-        COUNT = 100000
+        COUNT = 100000,
+        BYTES_EACH = 500
     };
     size_t length;
     char *yaml = manySpheres(COUNT, &length);
@@ -489,16 +499,33 @@ static void hundredThousandObjectsTakeLittleMemory(void **state)
         bool right = statusIsOk(&status) && scene.objectCount == COUNT && diagnostics.warnings == 0 &&
                      scene.objects[COUNT - 1].sphere.center.x == COUNT - 1 + 0.25 &&
                      scene.objects[COUNT - 1].material.diffuse.r == 0.5F;
-#if defined(__SANITIZE_ADDRESS__)
-        kilobytes = 0; /* freed memory is kept back */
-#endif
-        _exit(!right ? 1 : kilobytes * 1024 > 1000L * COUNT ? 2 : 0);
+        /* Under a sanitizer freed memory is kept back, so only the values are checked. */
+        bool tooMuch = !SANITIZED && kilobytes * 1024 > BYTES_EACH * (long)COUNT;
+        freeScene(&scene);
+        free(yaml);
+        _exit(!right ? 1 : tooMuch ? 2 : 0);
     }
     int result;
     assert_int_equal(waitpid(child, &result, 0), child);
     assert_true(WIFEXITED(result));
     assert_int_equal(WEXITSTATUS(result), 0);
     free(yaml);
+}
+
+static void diagnosticsOfTwoFilesAreAppended(void **state)
+{
+    (void)state;
+    Scene scene;
+    Diagnostics diagnostics = {0};
+    loadSceneFromText("a: 1\nb: 1\n", 10, &scene, &diagnostics);
+    loadSceneFromText("c: 1\n", 5, &scene, &diagnostics);
+    loadSceneFromText("image: {}\n", 10, &scene, &diagnostics);
+    assert_int_equal(diagnostics.errors, 3);
+    assert_int_equal(diagnostics.warnings, 1);
+    assert_int_equal(diagnostics.count, 4);
+    assert_string_equal(diagnostics.items[1].message, "unknown key 'b'");
+    assert_string_equal(diagnostics.items[2].message, "unknown key 'c'");
+    diagnosticsFree(&diagnostics);
 }
 
 /* The flag is never cleared, so it is set in a child process. */
@@ -542,6 +569,7 @@ int main(void)
         cmocka_unit_test(localeDoesNotMatter),
         cmocka_unit_test(missingFileIsAnIoError),
         cmocka_unit_test(hundredThousandObjectsTakeLittleMemory),
+        cmocka_unit_test(diagnosticsOfTwoFilesAreAppended),
         cmocka_unit_test(loadingStopsWhenCancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -293,8 +293,7 @@ static void nothingFromTheFileReachesTheTerminalRaw(void **state)
     (void)state;
     static const char *const scenes[] = {
         "\"\\e[31m\\u202E\\0x\": 1\n",
-        "materials: {\"\\x9b2J\": {}}\nobjects: [{sphere: {center: 0, radius: 1, material: "
-        "\"\\x9b3J\\n\"}}]\n",
+        "objects: [{cube: {center: [0, 0, 0], size: 1, material: \"\\x9b3J\\n\"}}]\n",
         "render: {model: \"\\e]0;title\\a\"}\n",
         "image: *\xE2\x80\xAE\n",
         "image: \"\xE2\x80\xAE\xEF\xBB\xBF\"\n",

@@ -141,11 +141,14 @@ static void cameraInside(void **state)
     assertWarning(
         LIGHT
         "objects: [{sphere: {center: [0, 0, -5], radius: 1}}, {sphere: {center: [0, 0, 0], radius: 2}}]\n",
-        1, 1, "the camera is inside the sphere of line 2 and every light is outside: all it sees is black",
+        1, 1,
+        "the camera is inside the sphere of line 2 and every light is outside: all surfaces it sees are "
+        "black",
         true);
     assertWarning(
         "camera: {position: [0, 0.5, 0]}\n" LIGHT "objects:\n  - cube: {center: [0, 0, 0], size: 2}\n", 1, 20,
-        "the camera is inside the cube of line 4 and every light is outside: all it sees is black", true);
+        "the camera is inside the cube of line 4 and every light is outside: all surfaces it sees are black",
+        true);
     /* Without shadows light comes in. */
     assertWarning("render: {shadows: false}\n" LIGHT "objects: [{sphere: {center: [0, 0, 0], radius: 2}}]\n",
                   0, 0, NULL, false);
@@ -153,11 +156,12 @@ static void cameraInside(void **state)
     assertWarning("render: {model: simple}\nobjects: [{sphere: {center: [0, 0, 0], radius: 2}}]\n", 0, 0,
                   NULL, false);
     /* Below the floor. */
-    assertWarning("camera: {position: [0, -2, 0], direction: [0, 1, -1]}\n" LIGHT
-                  "objects: [{plane: {point: [0, -1, 0], normal: [0, 1, 0]}}]\n",
-                  1, 20,
-                  "the camera is inside the plane of line 3 and every light is outside: all it sees is black",
-                  true);
+    assertWarning(
+        "camera: {position: [0, -2, 0], direction: [0, 1, -1]}\n" LIGHT
+        "objects: [{plane: {point: [0, -1, 0], normal: [0, 1, 0]}}]\n",
+        1, 20,
+        "the camera is behind the plane of line 3 and every light is outside: all surfaces it sees are black",
+        true);
 }
 
 static void lightInside(void **state)
