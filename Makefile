@@ -107,7 +107,7 @@ $(BUILD)/obj/%.o: %.c $(BUILD)/flags
 	$(Q)$(COMPILE) -MMD -MP -c -o $@ $<
 
 # The report's page is assembled into this object, which the compiler's list of dependencies does not say.
-$(BUILD)/obj/compare/report_template.o: $(wildcard compare/report.html compare/report.css compare/report.js)
+$(BUILD)/obj/compare/report_template.o: $(wildcard compare/report*.html compare/report*.css compare/report*.js)
 
 $(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
 	$(call say,TEST,$@)

@@ -126,19 +126,40 @@ static void appendShellWord(Text *text, const char *word)
     textAppend(text, "'");
 }
 
-/* Append the command line as it was typed; with a scene, all other scenes left out. */
-static void appendCommandLine(Text *text, const Arguments *arguments, const char *scene)
+/* How many words the option --out takes at this place of the command line: 0 where it does not stand. */
+static int outOptionLength(const Arguments *arguments, int i)
 {
+    if (strcmp(arguments->argv[i], "--out") == 0)
+        return 2;
+    return strncmp(arguments->argv[i], "--out=", 6) == 0;
+}
+
+/* Append the command line as it was typed. With one scene of several all others are left out, and the report
+ * goes to a folder of its own, so that it does not take the place of the whole. */
+static void appendCommandLine(Text *text, const Arguments *arguments, const char *scene, const char *folder)
+{
+    bool isPart = scene != NULL && arguments->operandCount > 1;
+    bool optionsEnded = false, outWritten = false;
     for (int i = 0; i < arguments->argc; i++) {
+        const char *word = arguments->argv[i];
         bool isOtherScene = false;
-        for (size_t j = 0; j < arguments->operandCount && scene != NULL; j++)
-            isOtherScene = isOtherScene ||
-                           (arguments->operands[j] == arguments->argv[i] && arguments->operands[j] != scene);
-        if (isOtherScene)
+        for (size_t j = 0; j < arguments->operandCount && isPart; j++)
+            isOtherScene =
+                isOtherScene || (arguments->operands[j] == word && arguments->operands[j] != scene);
+        optionsEnded = optionsEnded || strcmp(word, "--") == 0;
+        int outLength = isPart && !optionsEnded ? outOptionLength(arguments, i) : 0;
+        if (isOtherScene || outLength > 0) {
+            i += outLength > 1;
             continue;
+        }
         if (text->length > 0)
             textAppend(text, " ");
-        appendShellWord(text, arguments->argv[i]);
+        appendShellWord(text, word);
+        if (isPart && !outWritten && strcmp(word, "compare") == 0) {
+            outWritten = true;
+            textAppend(text, " --out ");
+            appendShellWord(text, folder);
+        }
     }
 }
 
@@ -320,7 +341,7 @@ static int reportResults(const Run *run, const SceneResult *results)
 
     Text json = {0}, command = {0};
     writeResultsJson(results, run->count, &json);
-    appendCommandLine(&command, arguments, NULL);
+    appendCommandLine(&command, arguments, NULL, NULL);
     Status status = writeTextFile(run, "results.json", &json);
     if (statusIsOk(&status))
         status = command.failed ? statusOutOfMemory()
@@ -366,7 +387,9 @@ static Status prepareJobs(Run *run)
         Job *job = &run->jobs[i];
         job->path = run->arguments->operands[i];
         nameJob(run, i);
-        appendCommandLine(&job->command, run->arguments, job->path);
+        Text folder = pathInFolder(run, textString(&job->name));
+        appendCommandLine(&job->command, run->arguments, job->path, textString(&folder));
+        textFree(&folder);
         if (job->name.failed || job->ours.failed || job->povray.failed || job->difference.failed ||
             job->pov.failed || job->command.failed)
             return statusOutOfMemory();
