@@ -108,7 +108,7 @@ static void appendDuration(Text *text, double seconds)
 static void drawBar(double done, double elapsed)
 {
     Text text = {0};
-    int filled = (int)(done * BAR_WIDTH);
+    int filled = (int)(done * (double)BAR_WIDTH);
     textAppendFormat(&text, "%s%s [", ERASE_LINE, progress.name);
     for (int i = 0; i < BAR_WIDTH; i++)
         textAppend(&text, i < filled ? "#" : ".");
