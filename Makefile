@@ -107,7 +107,7 @@ $(BUILD)/obj/%.o: %.c $(BUILD)/flags
 	$(Q)$(COMPILE) -MMD -MP -c -o $@ $<
 
 # The report's page is assembled into this object, which the compiler's list of dependencies does not say.
-$(BUILD)/obj/compare/report_template.o: $(wildcard compare/report.html compare/report.css compare/report.js)
+$(BUILD)/obj/compare/report_template.o: $(wildcard compare/report*.html compare/report*.css compare/report*.js)
 
 $(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
 	$(call say,TEST,$@)
@@ -167,6 +167,10 @@ lint:
 format:
 	@tools/check-format.sh --fix
 
+## fuzz: throw a minute of broken scenes at the loader (needs clang)
+fuzz:
+	@BUILD='$(BUILD)' tests/fuzz/load.sh
+
 ## bench: run the benchmarks
 bench: all
 	@set -e; for script in $(wildcard bench/*.sh); do ECLAIRAGE='$(BUILD)/eclairage' "$$script"; done
@@ -174,6 +178,12 @@ bench: all
 ## update-results: measure again and rewrite the committed numbers
 update-results: all
 	@ECLAIRAGE='$(BUILD)/eclairage' tools/update-results.sh
+
+## docs: make the manual page, completion, schema and reference again from the tables
+docs: all $(BUILD)/tests/test_load_files
+	$(Q)$(BUILD)/eclairage --print-manual-page >man/eclairage.1
+	$(Q)$(BUILD)/eclairage --print-bash-completion >completions/eclairage.bash
+	$(Q)ECLAIRAGE_UPDATE=1 $(BUILD)/tests/test_load_files
 
 # ---------------------------------------------------------------------------------------------------------
 # Installing: the GNU directory variables, each overridable
@@ -229,5 +239,5 @@ help:
 	@sed -n 's/^## \([A-Z][^ ]*\): /  \1:/p' $(firstword $(MAKEFILE_LIST)) | $(help-columns)
 
 .DEFAULT_GOAL := all
-.PHONY: all demo test unit setup lint format bench update-results install uninstall clean help FORCE
+.PHONY: all demo test unit setup lint format fuzz bench docs update-results install uninstall clean help FORCE
 .DELETE_ON_ERROR:

@@ -99,7 +99,7 @@ static double chooseTickDistance(const Shown *shown, double end)
     if (shown->largest <= MOST_STEPS_TICKED)
         return (shown->largest <= MOST_STEPS_TICKED / 2 ? 1.0 : 2.0) / imageMaxSample(shown->a);
     double distance = pow(10, floor(log10(end)) - 1);
-    for (int i = 0; end / distance > MOST_TICKS; i++)
+    for (int i = 0; end / distance > (double)MOST_TICKS; i++)
         distance *= i % 3 == 1 ? 2.5 : 2; /* 1, 2, 5, 10 */
     return distance;
 }

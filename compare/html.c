@@ -1,27 +1,12 @@
 /* html.c - pieces of an HTML page; see html.h. */
 #include "compare/html.h"
 
+#include "base/text.h"
+
 #include <stdbool.h>
 #include <string.h>
 
 static const char replacement[] = "\xEF\xBF\xBD"; /* U+FFFD */
-
-/* The length of the valid UTF-8 character that starts here, or 0 (RFC 3629, section 4). */
-static size_t characterLength(const unsigned char *s)
-{
-    if (s[0] < 0x80)
-        return 1;
-    if (s[0] < 0xC2 || s[0] > 0xF4)
-        return 0;
-    size_t length = s[0] >= 0xF0 ? 4 : s[0] >= 0xE0 ? 3 : 2;
-    for (size_t i = 1; i < length; i++)
-        if ((s[i] & 0xC0) != 0x80)
-            return 0;
-    bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
-    bool surrogate = s[0] == 0xED && s[1] > 0x9F;
-    bool tooLarge = s[0] == 0xF4 && s[1] > 0x8F;
-    return overlong || surrogate || tooLarge ? 0 : length;
-}
 
 /* Whether a valid character is a control character: C0, DEL, or C1 (U+0080 to U+009F, C2 80 to C2 9F). */
 static bool isControl(const unsigned char *s)
@@ -59,7 +44,7 @@ static const char *htmlReference(unsigned char c)
 void textAppendHtml(Text *html, const char *text)
 {
     for (const unsigned char *s = (const unsigned char *)(text != NULL ? text : ""); *s != '\0';) {
-        size_t length = characterLength(s);
+        size_t length = utf8Length((const char *)s);
         const char *reference = htmlReference(*s);
         bool layout = *s == '\t' || *s == '\n';
         if (length == 0 || (isControl(s) && !layout) || turnsDirection(s))
@@ -76,7 +61,7 @@ size_t textAppendPlain(Text *plain, const char *text)
 {
     size_t characters = 0;
     for (const unsigned char *s = (const unsigned char *)(text != NULL ? text : ""); *s != '\0';) {
-        size_t length = characterLength(s);
+        size_t length = utf8Length((const char *)s);
         if (length == 0 || isControl(s) || turnsDirection(s))
             textAppend(plain, replacement);
         else

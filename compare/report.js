@@ -22,12 +22,12 @@ class Viewer {
     this.maxDifference = +box.dataset.maxDifference;
     this.fail = +box.dataset.fail;
     this.images = { ours: box.querySelector('.ours'), povray: box.querySelector('.povray') };
-    this.probe = { ...this.worst };
     this.held = false;
     this.mode = 'side';
     this.near = false;
     this.width = +box.dataset.width;
     this.height = +box.dataset.height;
+    this.probe = this.maxDifference > 0 ? { ...this.worst } : { x: this.width >> 1, y: this.height >> 1 };
     this.build();
   }
 
@@ -110,6 +110,7 @@ class Viewer {
     else { worstButton.disabled = true; worstButton.textContent = 'No pixel differs'; }
     this.listenToStage();
     this.root.dataset.mode = this.mode;
+    this.root.classList.toggle('stacked', this.width > 2.2 * this.height);
     this.box.after(this.root);
     this.box.classList.add('viewed');
     new ResizeObserver(() => { if (this.zoomed) this.place(); else this.fit(); }).observe(this.parts.stage);

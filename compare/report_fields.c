@@ -76,7 +76,7 @@ static void appendRunSummary(const Page *page, Text *text)
     /* Round down, so that 100 % is said of all pixels only. */
     double percent = floor(1e4 * (double)identical / (double)pixels) / 100.0;
     textAppendReadable(text, percent, 6);
-    textAppend(text, " % of them identical to the last bit; the largest difference is ");
+    textAppend(text, "\u00A0% of them identical to the last bit; the largest difference is ");
     textAppendDifference(text, largest, 65535);
     textAppend(text, " of full brightness.");
 }

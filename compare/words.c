@@ -1,6 +1,8 @@
 /* words.c - results as words and numbers; see words.h. */
 #include "compare/words.h"
 
+#include "compare/rounding.h"
+
 #include <math.h>
 
 SceneOutcome findSceneOutcome(const SceneResult *result)
@@ -77,17 +79,8 @@ void textAppendCount(Text *text, size_t value, const char *separator)
 
 void textAppendRounded(Text *text, double value, int digits)
 {
-    if (isfinite(value) && value != 0.0) {
-        /* Round to an integer of that many digits; multiply or divide by an exact power of ten, so that
-         * the result is the double nearest to the short decimal and prints as that. */
-        int exponent = (int)floor(log10(fabs(value))) - digits + 1;
-        double power = pow(10.0, fabs((double)exponent));
-        if (isfinite(power) && exponent < 0)
-            value = round(value * power) / power;
-        else if (isfinite(power))
-            value = round(value / power) * power;
-    }
-    textAppendDouble(text, value);
+    char buffer[NUMBER_TEXT_SIZE];
+    textAppend(text, formatRounded(buffer, value, digits));
 }
 
 /* Whether value is a multiple of 1/maxSample, but for rounding in double arithmetic. */

@@ -97,10 +97,11 @@ static Status writeLights(const Scene *scene, Finish finish, double scale, Text 
         bool falls = light->falloff == FALLOFF_INVERSE_SQUARE;
         double brightest = fmax((double)light->color.r, fmax((double)light->color.g, (double)light->color.b));
         if (falls && brightest * scale * scale * 0x1p39 > (double)FLT_MAX)
-            return statusError(STATUS_INEXPRESSIBLE,
-                               "light %zu is too bright for POV-Ray, which keeps colours in single precision; "
-                               "a colour below 1e26 can be exported",
-                               i + 1);
+            return statusError(
+                STATUS_INEXPRESSIBLE,
+                "light %zu is too bright for POV-Ray, which keeps colours in single precision; "
+                "a colour below 1e26 can be exported",
+                i + 1);
         appendColor(pov, light->color, falls ? scale * scale : 1);
         textAppend(pov, falls ? "*K\n  fade_distance D fade_power 2\n}\n\n" : "\n}\n\n");
     }

@@ -113,6 +113,11 @@ int main(int argc, char **argv)
     installSignalHandlers();
     int code = runProgram(argc, argv);
 
-    /* What failed because of a Ctrl-C was interrupted. */
-    return code != STATUS_OK && cancelRequested() ? STATUS_INTERRUPTED : code;
+    /* What failed because of a Ctrl-C was interrupted, and that is said once. */
+    if (code == STATUS_OK || !cancelRequested())
+        return code;
+    Text message = {0};
+    textAppend(&message, "eclairage: interrupted\n");
+    printMessages(&message);
+    return STATUS_INTERRUPTED;
 }

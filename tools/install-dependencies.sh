@@ -6,7 +6,7 @@
 #
 # Purposes: build, demo, unit, test, browser (see the tables below). A thing counts as present when it works,
 # wherever it came from, so a compiler or node that apt knows nothing of is left alone. Optional things only
-# add test suites: without them the suite is skipped, aloud. CC and PKG_CONFIG name the programs to use.
+# add tests: without them these are skipped, aloud. CC and PKG_CONFIG name the programs to use.
 
 # The functions of the tables are called by name.
 # shellcheck disable=SC2317
@@ -44,6 +44,9 @@ need_test() {
     require jq has jq
     suggest clang has clang
     suggest clang-format-14 tools/check-format.sh --available
+    suggest man-db has man
+    suggest locales test -e /usr/share/i18n/locales/de_DE
+    suggest "python3-jsonschema python3-yaml" python3 -c 'import jsonschema, yaml'
 }
 need_browser() {
     suggest chromium chromiumExists

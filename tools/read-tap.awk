@@ -25,6 +25,7 @@
     inFailure = 0
     if (tolower($0) ~ /# *skip/) {
         skipped++
+        sub(/^# *(SKIP|skip) */, "", label)
         show("skipped", label)
     } else if ($1 == "ok") {
         passed++

@@ -153,8 +153,9 @@ absolute() {
 
 # --- The suites -------------------------------------------------------------------------------------------
 
-# Finds what the sanitizers are told. Leaks count; their reports go to files, so that no test can swallow one;
-# memory that cannot be had gives NULL, as it does without a sanitizer.
+# What the sanitizers are told. Leaks count. A report goes to a file, or with gcc's undefined-behaviour library to
+# standard error, and ends the program with 99, which no command uses: a test cannot take it for what it expects.
+# Memory that cannot be had gives NULL, as it does without a sanitizer.
 sanitizedFolder=$BUILD
 [ -n "$SANITIZE" ] || sanitizedFolder=$BUILD/address-undefined
 sanitizedEnvironment=(

@@ -149,28 +149,11 @@ void jsonKeyBool(JsonWriter *json, const char *key, bool value)
     jsonBool(json, value);
 }
 
-/* The length of the valid UTF-8 character that starts here, or 0 (RFC 3629, section 4). */
-static size_t utf8Length(const unsigned char *s)
-{
-    if (s[0] < 0x80)
-        return 1;
-    size_t length = s[0] >= 0xF0 ? 4 : s[0] >= 0xE0 ? 3 : 2;
-    if (s[0] < 0xC2 || s[0] > 0xF4)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((s[i] & 0xC0) != 0x80)
-            return 0;
-    bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
-    bool surrogate = s[0] == 0xED && s[1] > 0x9F;
-    bool tooLarge = s[0] == 0xF4 && s[1] > 0x8F;
-    return overlong || surrogate || tooLarge ? 0 : length;
-}
-
 void textAppendJsonString(Text *text, const char *value)
 {
     textAppend(text, "\"");
     for (const unsigned char *s = (const unsigned char *)value; *s != '\0';) {
-        size_t length = utf8Length(s);
+        size_t length = utf8Length((const char *)s);
         if (length == 0) {
             textAppend(text, "\xEF\xBF\xBD");
             length = 1;

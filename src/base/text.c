@@ -79,6 +79,23 @@ void textFree(Text *text)
     *text = (Text){0};
 }
 
+size_t utf8Length(const char *string)
+{
+    const unsigned char *s = (const unsigned char *)string;
+    if (s[0] < 0x80)
+        return 1;
+    size_t length = s[0] >= 0xF0 ? 4 : s[0] >= 0xE0 ? 3 : 2;
+    if (s[0] < 0xC2 || s[0] > 0xF4)
+        return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((s[i] & 0xC0) != 0x80)
+            return 0;
+    bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
+    bool surrogate = s[0] == 0xED && s[1] > 0x9F;
+    bool tooLarge = s[0] == 0xF4 && s[1] > 0x8F;
+    return overlong || surrogate || tooLarge ? 0 : length;
+}
+
 /* The C locale, made once; (locale_t)0 where memory ran out, and then the thread's own is used. */
 static locale_t cLocale;
 static pthread_once_t cLocaleOnce = PTHREAD_ONCE_INIT;

@@ -63,8 +63,7 @@ typedef struct Pictures {
 /* Append the scene's file name without folder and extension, in letters that are harmless everywhere. */
 static void appendSafeName(Text *text, const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *base = strcmp(path, "-") == 0 ? "stdin" : slash != NULL ? slash + 1 : path;
+    const char *base = strcmp(path, "-") == 0 ? "stdin" : baseName(path);
     const char *dot = strrchr(base, '.');
     size_t length = dot != NULL && dot != base ? (size_t)(dot - base) : strlen(base);
     if (length > LONGEST_NAME)
@@ -127,19 +126,40 @@ static void appendShellWord(Text *text, const char *word)
     textAppend(text, "'");
 }
 
-/* Append the command line as it was typed; with a scene, all other scenes left out. */
-static void appendCommandLine(Text *text, const Arguments *arguments, const char *scene)
+/* How many words the option --out takes at this place of the command line: 0 where it does not stand. */
+static int outOptionLength(const Arguments *arguments, int i)
 {
+    if (strcmp(arguments->argv[i], "--out") == 0)
+        return 2;
+    return strncmp(arguments->argv[i], "--out=", 6) == 0;
+}
+
+/* Append the command line as it was typed. With one scene of several all others are left out, and the report
+ * goes to a folder of its own, so that it does not take the place of the whole. */
+static void appendCommandLine(Text *text, const Arguments *arguments, const char *scene, const char *folder)
+{
+    bool isPart = scene != NULL && arguments->operandCount > 1;
+    bool optionsEnded = false, outWritten = false;
     for (int i = 0; i < arguments->argc; i++) {
+        const char *word = arguments->argv[i];
         bool isOtherScene = false;
-        for (size_t j = 0; j < arguments->operandCount && scene != NULL; j++)
-            isOtherScene = isOtherScene ||
-                           (arguments->operands[j] == arguments->argv[i] && arguments->operands[j] != scene);
-        if (isOtherScene)
+        for (size_t j = 0; j < arguments->operandCount && isPart; j++)
+            isOtherScene =
+                isOtherScene || (arguments->operands[j] == word && arguments->operands[j] != scene);
+        optionsEnded = optionsEnded || strcmp(word, "--") == 0;
+        int outLength = isPart && !optionsEnded ? outOptionLength(arguments, i) : 0;
+        if (isOtherScene || outLength > 0) {
+            i += outLength > 1;
             continue;
+        }
         if (text->length > 0)
             textAppend(text, " ");
-        appendShellWord(text, arguments->argv[i]);
+        appendShellWord(text, word);
+        if (isPart && !outWritten && strcmp(word, "compare") == 0) {
+            outWritten = true;
+            textAppend(text, " --out ");
+            appendShellWord(text, folder);
+        }
     }
 }
 
@@ -149,8 +169,20 @@ static void appendCommandLine(Text *text, const Arguments *arguments, const char
 static Text pathInFolder(const Run *run, const char *name)
 {
     Text path = {0};
-    textAppendFormat(&path, "%s/%s", run->folder, name);
+    bool endsInSlash = run->folder[strlen(run->folder) - 1] == '/';
+    textAppendFormat(&path, "%s%s%s", run->folder, endsInSlash ? "" : "/", name);
     return path;
+}
+
+/* STATUS_USAGE when the .pov would be written over its scene. */
+static Status protectScene(const Run *run, const Job *job)
+{
+    Text path = pathInFolder(run, textString(&job->pov));
+    bool isScene = isSameFile(textString(&path), job->path);
+    textFree(&path);
+    return isScene ? statusError(STATUS_USAGE, "the POV-Ray scene would overwrite the scene itself: choose "
+                                               "another folder with --out, or end its name in .yaml")
+                   : statusOk();
 }
 
 static Status writeTextFile(const Run *run, const char *name, const Text *text)
@@ -234,6 +266,8 @@ static Status compareScene(Run *run, Job *job, Scene *scene)
     Pictures pictures = {0};
     Status status = exportPov(scene, textString(&job->pov), &pov);
     if (statusIsOk(&status))
+        status = protectScene(run, job);
+    if (statusIsOk(&status))
         status = writeTextFile(run, textString(&job->pov), &pov);
     if (statusIsOk(&status))
         status = drawScene(run, job, scene, &pictures.ours);
@@ -275,7 +309,7 @@ static void runJob(void *context, size_t number)
     if (statusIsOk(&status)) {
         status = compareScene(run, job, &scene);
         freeScene(&scene);
-        if (!statusIsOk(&status) && status.code != STATUS_INTERRUPTED)
+        if (!statusIsOk(&status))
             appendSceneError(&job->messages, job->path, &status);
     }
     /* In the results the message stands alone, so it says the place. */
@@ -307,7 +341,7 @@ static int reportResults(const Run *run, const SceneResult *results)
 
     Text json = {0}, command = {0};
     writeResultsJson(results, run->count, &json);
-    appendCommandLine(&command, arguments, NULL);
+    appendCommandLine(&command, arguments, NULL, NULL);
     Status status = writeTextFile(run, "results.json", &json);
     if (statusIsOk(&status))
         status = command.failed ? statusOutOfMemory()
@@ -320,8 +354,11 @@ static int reportResults(const Run *run, const SceneResult *results)
         writeResultsText(results, run->count, colorOnOutput(), &words);
     int printed = printData(arguments->json ? &json : &words);
     textFree(&json);
-    if (written == 0)
-        printNote("the report is %s/index.html", run->folder);
+    if (written == 0) {
+        Text page = pathInFolder(run, "index.html");
+        printNote("the report is %s", textString(&page));
+        textFree(&page);
+    }
     highest = written > highest ? written : highest;
     return printed > highest ? printed : highest;
 }
@@ -350,7 +387,9 @@ static Status prepareJobs(Run *run)
         Job *job = &run->jobs[i];
         job->path = run->arguments->operands[i];
         nameJob(run, i);
-        appendCommandLine(&job->command, run->arguments, job->path);
+        Text folder = pathInFolder(run, textString(&job->name));
+        appendCommandLine(&job->command, run->arguments, job->path, textString(&folder));
+        textFree(&folder);
         if (job->name.failed || job->ours.failed || job->povray.failed || job->difference.failed ||
             job->pov.failed || job->command.failed)
             return statusOutOfMemory();

@@ -7,13 +7,16 @@
 
 #include <string.h>
 
-/* The name the .pov goes by in the command of its first comment. */
-static const char *povName(const char *output)
+/* Append the name the .pov goes by in the command of its first comment. On standard output it has none
+ * yet, and gets the one that is most likely. */
+static void appendPovName(const char *scene, const char *output, Text *name)
 {
-    if (strcmp(output, "-") == 0)
-        return "scene.pov";
-    const char *slash = strrchr(output, '/');
-    return slash != NULL ? slash + 1 : output;
+    if (strcmp(output, "-") != 0)
+        textAppend(name, baseName(output));
+    else if (strcmp(scene, "-") != 0)
+        appendNameBeside(baseName(scene), ".pov", name);
+    else
+        textAppend(name, "scene.pov");
 }
 
 int runPov(const Arguments *arguments)
@@ -31,9 +34,11 @@ int runPov(const Arguments *arguments)
     if (!statusIsOk(&status))
         return (int)status.code;
 
-    Text pov = {0};
-    status = exportPov(&scene, povName(output), &pov);
+    Text pov = {0}, name = {0};
+    appendPovName(path, output, &name);
+    status = exportPov(&scene, textString(&name), &pov);
     freeScene(&scene);
+    textFree(&name);
     if (statusIsOk(&status) && pov.failed)
         status = statusOutOfMemory();
     if (statusIsOk(&status))

@@ -8,25 +8,12 @@
 #include "raytracer.h"
 
 #include <string.h>
-#include <strings.h>
 #include <sys/resource.h>
 
 /* How long each phase took, in seconds. */
 typedef struct Phases {
     double load, compile, trace, write, total;
 } Phases;
-
-/* SCENE.png beside SCENE.yaml; a name without .yaml or .yml gets .png behind it. */
-static void appendPictureName(const char *scene, Text *name)
-{
-    const char *slash = strrchr(scene, '/');
-    const char *base = slash != NULL ? slash + 1 : scene;
-    const char *dot = strrchr(base, '.');
-    bool isYaml =
-        dot != NULL && dot != base && (strcasecmp(dot, ".yaml") == 0 || strcasecmp(dot, ".yml") == 0);
-    textAppendBytes(name, scene, isYaml ? (size_t)(dot - scene) : strlen(scene));
-    textAppend(name, ".png");
-}
 
 /* The most memory the process has had, in bytes; Linux counts kibibytes. */
 static int64_t peakMemory(void)
@@ -124,7 +111,7 @@ int runRender(const Arguments *arguments)
     int threads = chosenThreads(arguments);
     Text defaultName = {0};
     if (arguments->output == NULL)
-        appendPictureName(path, &defaultName);
+        appendNameBeside(path, ".png", &defaultName);
     const char *output = arguments->output != NULL ? arguments->output : textString(&defaultName);
     status = defaultName.failed ? statusOutOfMemory() : probeOutput(output);
     if (statusIsOk(&status))

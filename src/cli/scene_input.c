@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 enum {
@@ -100,6 +101,21 @@ Status openScene(const char *path, const Arguments *arguments, Scene *scene, Tex
 int chosenThreads(const Arguments *arguments)
 {
     return arguments->threads > 0 ? arguments->threads : availableProcessors();
+}
+
+const char *baseName(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+void appendNameBeside(const char *scene, const char *extension, Text *name)
+{
+    const char *base = baseName(scene), *dot = strrchr(base, '.');
+    bool isYaml =
+        dot != NULL && dot != base && (strcasecmp(dot, ".yaml") == 0 || strcasecmp(dot, ".yml") == 0);
+    textAppendBytes(name, scene, isYaml ? (size_t)(dot - scene) : strlen(scene));
+    textAppend(name, extension);
 }
 
 bool isSameFile(const char *a, const char *b)

@@ -20,6 +20,13 @@ void overrideTolerance(const Tolerance *given, Tolerance *tolerance);
 /* The threads to draw on. */
 int chosenThreads(const Arguments *arguments);
 
+/* Append the name that a result of the scene gets where none is given: SCENE.yaml or SCENE.yml with the
+ * extension in place of its own, any other name with the extension behind it. */
+void appendNameBeside(const char *scene, const char *extension, Text *name);
+
+/* The part of a path behind its last slash. */
+const char *baseName(const char *path);
+
 /* Whether both name the same existing file. */
 bool isSameFile(const char *a, const char *b);
 

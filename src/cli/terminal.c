@@ -108,7 +108,7 @@ static void appendDuration(Text *text, double seconds)
 static void drawBar(double done, double elapsed)
 {
     Text text = {0};
-    int filled = (int)(done * BAR_WIDTH);
+    int filled = (int)(done * (double)BAR_WIDTH);
     textAppendFormat(&text, "%s%s [", ERASE_LINE, progress.name);
     for (int i = 0; i < BAR_WIDTH; i++)
         textAppend(&text, i < filled ? "#" : ".");
@@ -181,6 +181,8 @@ static void appendLabel(Text *text, const char *label, const char *color)
 
 void appendError(Text *messages, const char *file, const Status *status)
 {
+    if (status->code == STATUS_INTERRUPTED)
+        return;
     if (file != NULL && status->line > 0) {
         appendHarmless(messages, file);
         textAppendFormat(messages, ":%d:", status->line);
@@ -224,6 +226,8 @@ void appendWarning(Text *messages, const char *format, ...)
 
 void printMessages(Text *messages)
 {
+    if (messages->length == 0 && !messages->failed)
+        return;
     pthread_mutex_lock(&progress.lock);
     eraseBar();
     fputs(messages->failed ? "eclairage: error: out of memory\n" : textString(messages), stderr);

@@ -20,7 +20,8 @@ bool colorOnErrors(void);
 bool colorOnOutput(void);
 
 /* Append a message as it is printed: "eclairage: error: ..." or, for a status with a place in file,
- * "file:12:3: error: ...". file may be NULL. appendSceneError names the scene in any case. */
+ * "file:12:3: error: ...". file may be NULL. appendSceneError names the scene in any case.
+ * That the user interrupted the work is said by main, once, and not here. */
 void appendError(Text *messages, const char *file, const Status *status);
 void appendSceneError(Text *messages, const char *path, const Status *status);
 void appendWarning(Text *messages, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -12,9 +12,10 @@
 #include "scene/diagnostics.h"
 
 /* Read path ("-" is standard input) into *scene, which the caller frees with freeScene. Errors and
- * warnings are appended to diagnostics, which the caller frees. STATUS_SCENE when there was an error,
- * STATUS_IO when the file could not be read or memory ran out, STATUS_INTERRUPTED when cancelled; then
- * *scene is empty and needs no freeing. */
+ * warnings are appended, in the order of their places, to diagnostics, which the caller begins as {0} and
+ * frees. STATUS_SCENE when there was an error, with the first one's place and message, STATUS_IO when the
+ * file could not be read or memory ran out, STATUS_INTERRUPTED when cancelled; then *scene is empty and
+ * needs no freeing. */
 Status loadScene(const char *path, Scene *scene, Diagnostics *diagnostics);
 
 /* The same from text in memory; name stands for the file in messages. */

@@ -30,6 +30,11 @@ void textAppendNode(Text *text, const YamlNode *node)
         textAppend(text, quoteBytes(node->text, node->count).text);
 }
 
+static bool isOneOfWords(const YamlNode *value, const char *a, const char *b)
+{
+    return value->kind == NODE_SCALAR && (strcmp(value->text, a) == 0 || strcmp(value->text, b) == 0);
+}
+
 void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value)
 {
     Text message = {0}, hint = {0};
@@ -37,7 +42,11 @@ void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, con
     textAppendExpectation(&message, key);
     textAppend(&message, ", but is ");
     textAppendNode(&message, value);
-    if (value->kind == NODE_SCALAR && value->count == 0)
+    if (key->type == FORMAT_BOOL && isOneOfWords(value, "yes", "on"))
+        textAppend(&hint, "write true");
+    else if (key->type == FORMAT_BOOL && isOneOfWords(value, "no", "off"))
+        textAppend(&hint, "write false");
+    else if (value->kind == NODE_SCALAR && value->count == 0)
         textAppend(&hint, key->type == FORMAT_KINDS ? "write [] for an empty list"
                                                     : "write its value behind the ':', or leave the key out");
     else if (key->type == FORMAT_MAPPING && value->kind == NODE_SCALAR && strchr(value->text, ':') != NULL)

@@ -61,7 +61,7 @@ typedef struct EncodingFault {
 /* Whether all is well; else the first fault. */
 bool checkEncoding(const SourceText *source, EncodingFault *fault);
 
-/* Append bytes of the file, shortened and with everything unprintable replaced. */
+/* Append bytes of the file with everything unprintable but tabs replaced by U+FFFD. */
 void textAppendPrintable(Text *text, const char *bytes, size_t length);
 
 enum {

@@ -70,6 +70,40 @@ function readSamples(file) {
   return { width, height, at: (x, y) => [0, 2, 4].map((c) => rows[y + 1].readUInt16BE(6 * x + c)) };
 }
 
+/* A PNG of these bytes a row, each row with the next of the five filters. */
+function makePng(width, height, depth, colourType, rows, { interlaced = 0, gamma = 100000 } = {}) {
+  const chunk = (kind, body) => {
+    const whole = Buffer.alloc(body.length + 12); /* the sum of 4 bytes at the end is not read by the page */
+    whole.writeUInt32BE(body.length);
+    whole.write(kind, 4, 'latin1');
+    body.copy(whole, 8);
+    return whole;
+  };
+  const header = Buffer.alloc(13), gammaBody = Buffer.alloc(4);
+  header.writeUInt32BE(width);
+  header.writeUInt32BE(height, 4);
+  header.set([depth, colourType, 0, 0, interlaced], 8);
+  gammaBody.writeUInt32BE(gamma);
+  const left = ({ 0: 1, 2: 3, 4: 2, 6: 4 }[colourType] ?? 1) * Math.max(1, depth / 8);
+  const filtered = rows.map((row, y) => {
+    const filter = y % 5;
+    return Buffer.from([filter, ...row.map((value, i) => {
+      const a = i < left ? 0 : row[i - left], b = y ? rows[y - 1][i] : 0, c = i < left || !y ? 0 : rows[y - 1][i - left], p = a + b - c;
+      const nearest = [a, b, c].reduce((best, v) => (Math.abs(p - v) < Math.abs(p - best) ? v : best));
+      return (value - [0, a, b, (a + b) >> 1, nearest][filter]) & 255;
+    })]);
+  });
+  const packed = zlib.deflateSync(Buffer.concat(filtered));
+  const middle = packed.length >> 1;
+  return [...Buffer.concat([Buffer.alloc(8), chunk('IHDR', header), chunk('gAMA', gammaBody), chunk('IDAT', packed.subarray(0, middle)), chunk('IDAT', packed.subarray(middle)), chunk('IEND', Buffer.alloc(0))])];
+}
+
+/* What a screen shows of a linear 16-bit sample (IEC 61966-2-1). */
+function screenValue(value) {
+  const v = value / 65535;
+  return Math.floor((v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055) * 255 + 0.5);
+}
+
 /* --- Fixture --- */
 
 function makeFixture(folder) {
@@ -205,6 +239,30 @@ async function testMixed(folder) {
     same(await page.locator('#scene-1 .held').evaluateAll((cells) => cells.map((c) => c.textContent).filter(Boolean)), ['✓ within', '✓ within', '✓ within'], 'within');
   });
 
+  await test('the page decodes every filter, depth and colour type it says it reads', async () => {
+    let seed = 1;
+    const random = () => { seed = (seed * 48271) % 2147483647; return seed & 255; };
+    for (const depth of [8, 16]) {
+      for (const [colourType, channels] of [[0, 1], [2, 3], [4, 2], [6, 4]]) {
+        const [width, height, size] = [7, 11, depth / 8];
+        const rows = Array.from({ length: height }, () => Array.from({ length: width * channels * size }, random));
+        const wanted = rows.flatMap((row) => Array.from({ length: width * 3 }, (_, i) => {
+          const at = (Math.floor(i / 3) * channels + (channels < 3 ? 0 : i % 3)) * size;
+          return size === 2 ? row[at] * 256 + row[at + 1] : row[at];
+        }));
+        const found = await page.evaluate(async (bytes) => { const p = await decodePng(new Uint8Array(bytes)); return { ...p, samples: [...p.samples] }; }, makePng(width, height, depth, colourType, rows));
+        same(found, { width, height, max: depth === 16 ? 65535 : 255, linear: true, samples: wanted }, `depth ${depth}, colour type ${colourType}`);
+      }
+    }
+  });
+  await test('a PNG that the page cannot read is an error, not a wrong picture', async () => {
+    const good = [[1, 2, 3], [4, 5, 6]];
+    const cases = [makePng(1, 2, 8, 2, good, { interlaced: 1 }), makePng(1, 2, 8, 3, good), makePng(1, 3, 8, 2, good), makePng(1, 2, 4, 0, good), []];
+    const outcomes = await page.evaluate((all) => Promise.all(all.map((bytes) => decodePng(new Uint8Array(bytes)).then(() => 'read', () => 'error'))), cases);
+    same(outcomes, cases.map(() => 'error'), 'outcomes');
+    same(await page.evaluate(async (bytes) => (await decodePng(new Uint8Array(bytes))).linear, makePng(1, 2, 8, 2, good, { gamma: 45455 })), false, 'a gamma of 1/2.2 is not linear');
+  });
+
   const scene = await openScene(page, 'scene-2');
   const [ours, povray] = (await pathsOf(scene, path.dirname(file))).map(readSamples);
   const worst = JSON.parse(fs.readFileSync(path.join(folder, 'mixed', 'results.json'), 'utf8')).scenes[1].worst_pixel;
@@ -225,8 +283,7 @@ async function testMixed(folder) {
   await test('the probe tells fractions and 8-bit sRGB too', async () => {
     await scene.locator('.worst-button').click();
     const [value, fraction, screen] = await scene.locator('.samples tbody tr').first().locator('td').first().evaluate((cell) => [+cell.dataset.value, ...[...cell.querySelectorAll('small')].map((s) => s.textContent)]);
-    const v = value / 65535;
-    same([fraction, screen], [v.toFixed(5), String(Math.floor((v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055) * 255 + 0.5))], 'texts');
+    same([fraction, screen], [(value / 65535).toFixed(5), String(screenValue(value))], 'texts');
   });
   await test('the button goes to the worst pixel, which is marked', async () => {
     same(await shownPlace(scene), `(${worst.x}, ${worst.y})`, 'place');
@@ -235,8 +292,9 @@ async function testMixed(folder) {
   });
   await test('what the screen shows is the sRGB encoding of the samples', async () => {
     const pixel = await scene.locator('.pane[data-pane="ours"] canvas').evaluate((canvas, at) => [...canvas.getContext('2d').getImageData(at.x, at.y, 1, 1).data], worst);
-    const screen = ours.at(worst.x, worst.y).map((value) => { const v = value / 65535; return Math.floor((v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055) * 255 + 0.5); });
-    same(pixel, [...screen, 255], 'pixel');
+    same(pixel, [...ours.at(worst.x, worst.y).map(screenValue), 255], 'pixel');
+    const table = await page.evaluate(() => [...makeScreenTable({ max: 65535, linear: true })]);
+    same(table.map((value, sample) => value - screenValue(sample)).filter(Boolean), [], 'the table of all samples');
   });
   await test('the slider moves by keyboard and by mouse', async () => {
     await page.keyboard.press('2');
@@ -257,7 +315,11 @@ async function testMixed(folder) {
   await test('blink flips between the two pictures, by button, by key and by itself', async () => {
     await page.keyboard.press('3');
     const visible = () => scene.locator('.pane').evaluateAll((panes) => panes.filter((p) => p.offsetWidth > 0 && getComputedStyle(p).visibility === 'visible').map((p) => p.dataset.pane));
-    await scene.locator('.auto').setChecked(false);
+    holds(await scene.locator('.auto').isChecked(), 'it does not start by itself');
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    await page.keyboard.press('1');
+    await page.keyboard.press('3');
+    holds(!await scene.locator('.auto').isChecked(), 'it moves although the user asked for less motion');
     const first = await visible();
     same(first.length, 1, 'one at a time');
     await scene.locator('.flip').click();

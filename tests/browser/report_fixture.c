@@ -90,20 +90,26 @@ static Status makePicture(const FixtureScene *scene, unsigned seed, bool second,
     return statusOk();
 }
 
-/* A copy of a text that lives until the program ends. */
-static char *keep(const Text *text)
+/* A copy of a text that lives until the program ends, which is when the table of them goes. */
+static const char *keep(const Text *text)
 {
+    static char *kept[512];
+    static size_t count;
+    if (count == sizeof kept / sizeof *kept)
+        return "";
     char *copy = malloc(text->length + 1);
-    if (copy != NULL)
-        memcpy(copy, textString(text), text->length + 1);
+    if (copy == NULL)
+        return "";
+    memcpy(copy, textString(text), text->length + 1);
+    kept[count++] = copy;
     return copy;
 }
 
-static char *makeName(const char *before, unsigned number, const char *after)
+static const char *makeName(const char *before, unsigned number, const char *after)
 {
     Text text = {0};
     textAppendFormat(&text, "%s%02u%s", before, number, after);
-    char *name = keep(&text);
+    const char *name = keep(&text);
     textFree(&text);
     return name;
 }
@@ -246,7 +252,7 @@ int main(int count, char **arguments)
         textFree(&folder);
         if (!statusIsOk(&status)) {
             fprintf(stderr, "report_fixture: %s\n", status.message);
-            return status.code;
+            return (int)status.code;
         }
     }
     return 0;

@@ -18,7 +18,7 @@ interrupted() {
     wait $program || code=$?
     took=$(($(milliseconds) - start))
     expectCode 130 $code
-    hasText "$err" "eclairage: error: interrupted"
+    sameAs "$err" <<<"eclairage: interrupted"
     [ $took -lt 1000 ] || {
         echo "it took $took ms"
         return 1
@@ -86,7 +86,7 @@ interrupted() {
     code=0
     wait $program || code=$?
     expectCode 130 $code
-    sameAs "$err" <<<"eclairage: error: interrupted"
+    sameAs "$err" <<<"eclairage: interrupted"
     nothingTemporary
 }
 

@@ -4,14 +4,19 @@
 load helpers
 
 @test "standard output is the default, and - means it" {
-    makeScene s.yaml
-    try 0 pov s.yaml
+    makeScene scene.yaml
+    try 0 pov scene.yaml
     isEmpty "$err"
     grep -q 'sphere' "$out"
     cp "$out" default.pov
-    try 0 pov s.yaml -o -
+    try 0 pov scene.yaml -o -
     cmp "$out" default.pov
-    "$ECLAIRAGE" pov - <s.yaml | cmp - default.pov
+    "$ECLAIRAGE" pov - <scene.yaml | cmp - default.pov
+    # The command in the first comment has the name that the file will most likely get.
+    mkdir folder
+    cp scene.yaml folder/other.yml
+    try 0 pov folder/other.yml
+    head -n 5 "$out" | grep -q '+Iother\.pov '
 }
 
 @test "a file, with a note" {

@@ -131,8 +131,8 @@ escape=$'\e'
 @test "the progress bar: only on a terminal, after a second, and erased" {
     needs script
     makeLongScene s.yaml
-    # Draw for about three seconds: stop then.
-    bar() { onTerminal "$1 timeout -s INT 3 '$ECLAIRAGE' render s.yaml $2" || true; }
+    # Draw for two seconds, and stop.
+    bar() { onTerminal "$1 timeout -s INT 2 '$ECLAIRAGE' render s.yaml $2" || true; }
     bar '' ''
     grep -qE 'rendering \[#*\.*\] +[0-9]+ %  .* left' "$out"
     # Erased at the end: what follows the last bar begins with the order to erase the line.
@@ -141,7 +141,7 @@ escape=$'\e'
     hasNoText "$out" rendering
     bar 'env TERM=dumb' ''
     hasNoText "$out" rendering
-    timeout -s INT 3 "$ECLAIRAGE" render s.yaml 2>"$err" || true
+    timeout -s INT 2 "$ECLAIRAGE" render s.yaml 2>"$err" || true
     hasNoText "$err" rendering
     makeScene short.yaml
     onTerminal "'$ECLAIRAGE' render short.yaml"

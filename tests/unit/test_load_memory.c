@@ -1,0 +1,137 @@
+/* Memory that runs out: whichever allocation of loading a scene fails, the result is an I/O error or, where
+ * only a hint is lost, the right one; nothing crashes, nothing leaks.
+ *
+ * The allocator is replaced by one that fails at the n-th call, for every n. That needs glibc's own names
+ * for its allocator and no sanitizer, which brings an allocator itself; elsewhere the test skips.
+ */
+#include "base/files.h"
+#include "scene/load.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#if defined(__has_feature)
+#define SANITIZED __has_feature(address_sanitizer)
+#elif defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#else
+#define SANITIZED 0
+#endif
+
+#if defined(__GLIBC__) && !SANITIZED && !defined(__SANITIZE_ADDRESS__)
+#define CAN_FAIL 1
+
+extern void *__libc_malloc(size_t size);
+extern void *__libc_calloc(size_t count, size_t size);
+extern void *__libc_realloc(void *memory, size_t size);
+extern void __libc_free(void *memory);
+
+static bool armed;
+static long allowed; /* allocations that still succeed while armed */
+static long blocks;  /* allocated and not freed */
+
+static bool mayAllocate(void)
+{
+    if (armed && allowed == 0)
+        return false;
+    allowed -= armed;
+    return true;
+}
+
+void *malloc(size_t size)
+{
+    void *memory = mayAllocate() ? __libc_malloc(size) : NULL;
+    blocks += memory != NULL;
+    return memory;
+}
+
+void *calloc(size_t count, size_t size)
+{
+    void *memory = mayAllocate() ? __libc_calloc(count, size) : NULL;
+    blocks += memory != NULL;
+    return memory;
+}
+
+void *realloc(void *memory, size_t size)
+{
+    if (!mayAllocate())
+        return NULL;
+    void *moved = __libc_realloc(memory, size);
+    blocks += memory == NULL && moved != NULL;
+    return moved;
+}
+
+void free(void *memory)
+{
+    blocks -= memory != NULL;
+    __libc_free(memory);
+}
+
+#else
+#define CAN_FAIL 0
+static bool armed;
+static long allowed, blocks;
+#endif
+
+static void everyAllocationMayFail(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"scenes/course/04-phong.yaml",
+                                        "scenes/bad/unknown-key.yaml",
+                                        "scenes/bad/undefined-material.yaml",
+                                        "scenes/bad/duplicate-anchor.yaml",
+                                        "scenes/bad/merge-key.yaml",
+                                        "scenes/bad/errors-before-broken-yaml.yaml",
+                                        "scenes/bad/alias-cycle.yaml",
+                                        "scenes/bad/missing-key.yaml",
+                                        "scenes/bad/latin-1.yaml"};
+    if (!CAN_FAIL) {
+        print_message("skipped: the allocator cannot be replaced here\n");
+        skip();
+    }
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        char *text;
+        size_t length;
+        Status status = readWholeFile(paths[i], 1 << 20, &text, &length);
+        assert_true(statusIsOk(&status));
+        Scene scene;
+        Diagnostics diagnostics = {0};
+        Status expected = loadSceneFromText(text, length, &scene, &diagnostics);
+        diagnosticsFree(&diagnostics);
+        freeScene(&scene);
+
+        /* Let the first allocation fail, then the second, until all succeed. */
+        bool failed = true;
+        size_t ioErrors = 0;
+        for (long count = 0; failed; count++) {
+            long before = blocks;
+            allowed = count;
+            armed = true;
+            status = loadSceneFromText(text, length, &scene, &diagnostics);
+            armed = false;
+            failed = allowed == 0;
+            if (status.code != STATUS_IO && status.code != expected.code)
+                fail_msg("%s, allocation %ld: code %d", paths[i], count, status.code);
+            ioErrors += status.code == STATUS_IO;
+            diagnosticsFree(&diagnostics);
+            freeScene(&scene);
+            if (blocks != before)
+                fail_msg("%s, allocation %ld: %ld blocks leak", paths[i], count, blocks - before);
+        }
+        assert_true(ioErrors > 0);
+        free(text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(everyAllocationMayFail)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
