@@ -1,33 +1,26 @@
 /* export.c - from a Scene to a POV-Ray scene; see export.h and MAPPING.md.
  *
  * Everything is stated explicitly, since POV-Ray's defaults (left-handed camera, ambient light, diffuse
- * 0.6, no falloff) are not ours. Numbers are written so that they read back as the same double. Nothing
- * of the scene file reaches the text but numbers, so nothing in it can be read as POV-Ray code.
+ * 0.6, no falloff) are not ours. Numbers are written so that they read back as the same double. Of the
+ * scene file nothing reaches the text but numbers and the quoted names of picture files, so nothing in it
+ * can be read as POV-Ray code.
  */
 #include "povray/export.h"
 
 #include "povray/pov_scale.h"
+#include "povray/pov_texture.h"
 
 #include <float.h>
 #include <string.h>
 
-/* How the materials of a scene are to be written. */
-typedef enum Finish {
-    FINISH_UNLIT,     /* the diffuse colour as it is */
-    FINISH_LIT,       /* the diffuse colour where the light arrives, black elsewhere */
-    FINISH_REFLECTION /* Lambert's term, and Phong's */
-} Finish;
-
-static void appendColor(Text *pov, Color3f color, double factor)
-{
-    textAppend(pov, "rgb <");
-    textAppendPovNumber(pov, (double)color.r * factor);
-    textAppend(pov, ", ");
-    textAppendPovNumber(pov, (double)color.g * factor);
-    textAppend(pov, ", ");
-    textAppendPovNumber(pov, (double)color.b * factor);
-    textAppend(pov, ">");
-}
+/* The whole of an export. */
+typedef struct Export {
+    const Scene *scene;
+    Text *pov;
+    double scale;  /* of all lengths */
+    double extent; /* no point of the scene is farther from the origin, in scene units; planes aside */
+    PovFinish finish;
+} Export;
 
 /* The command that renders the file, its name made of harmless characters only. */
 static void writeHeader(const Scene *scene, const char *name, double scale, Text *pov)
@@ -56,121 +49,238 @@ static void writeHeader(const Scene *scene, const char *name, double scale, Text
         textAppendPovNumber(pov, scale);
         textAppend(pov, ", since POV-Ray ignores what is nearer than 0.001 to a surface.\n");
     }
-    textAppend(pov,
-               "#version 3.7;\n"
-               "global_settings { assumed_gamma 1 max_trace_level 5 adc_bailout 0 ambient_light rgb 0 }\n"
-               "#default { finish { ambient 0 emission 0 diffuse 1 brilliance 1 phong 0 specular 0 "
-               "reflection 0 } }\n\n");
+    if (scene->render.samples > 1)
+        textAppendFormat(
+            pov,
+            "// The mean of %d x %d rays a pixel cannot be said here; `eclairage compare` works it out\n"
+            "// of this picture, C, and of one with +A0.0 +AM1 +R%d -J, A: (%d A - C) / %d.\n",
+            scene->render.samples, scene->render.samples, scene->render.samples,
+            scene->render.samples * scene->render.samples + 1, scene->render.samples * scene->render.samples);
+    textAppendFormat(
+        pov,
+        "#version 3.7;\n"
+        "global_settings { assumed_gamma 1 max_trace_level %d adc_bailout 0 ambient_light rgb 0 }\n",
+        scene->render.maxDepth);
+    textAppend(pov, "#default { finish { ambient 0 emission 0 diffuse 1 brilliance 1 phong 0 specular 0 "
+                    "reflection 0 } }\n\n");
 }
 
 /* Direction, right and up span exactly our picture plane; right-handed, and no angle. */
-static void writeCamera(const Scene *scene, double scale, Text *pov)
+static void writeCamera(const Export *export)
 {
+    const Scene *scene = export->scene;
+    Text *pov = export->pov;
     CameraFrame frame = cameraFrame(&scene->camera, scene->image.width, scene->image.height);
-    textAppend(pov, "camera {\n  perspective\n  location ");
-    textAppendPovVector(pov, frame.position, scale);
+    bool orthographic = frame.projection == PROJECTION_ORTHOGRAPHIC;
+    double planeScale = orthographic ? export->scale : 1;
+    textAppend(pov, orthographic ? "camera {\n  orthographic\n  location "
+                                 : "camera {\n  perspective\n  location ");
+    textAppendPovVector(pov, frame.position, export->scale);
     textAppend(pov, "\n  direction ");
     textAppendPovVector(pov, frame.forward, 1);
     textAppend(pov, "\n  right ");
-    textAppendPovVector(pov, frame.right, 1);
+    textAppendPovVector(pov, frame.right, planeScale);
     textAppend(pov, "\n  up ");
-    textAppendPovVector(pov, frame.up, 1);
+    textAppendPovVector(pov, frame.up, planeScale);
     textAppend(pov, "\n}\n\n");
+}
+
+static void writeBackground(const Export *export)
+{
+    const Background *background = &export->scene->background;
+    const Fog *fog = &export->scene->fog;
+    Text *pov = export->pov;
+    if (background->isGradient) {
+        textAppend(pov, "sky_sphere { pigment { gradient y color_map { [0 ");
+        textAppendPovColor(pov, background->bottom, 1);
+        textAppend(pov, "] [1 ");
+        textAppendPovColor(pov, background->top, 1);
+        textAppend(pov, "] } scale 2 translate -1 } }\n\n");
+    } else {
+        textAppend(pov, "background { ");
+        textAppendPovColor(pov, background->bottom, 1);
+        textAppend(pov, " }\n\n");
+    }
+    if (fog->distance > 0) {
+        textAppend(pov, "fog { fog_type 1 distance ");
+        textAppendPovNumber(pov, fog->distance * export->scale);
+        textAppend(pov, " ");
+        textAppendPovColor(pov, fog->color, 1);
+        textAppend(pov, " }\n\n");
+    }
+}
+
+/* ---- Lights ---- */
+
+/* Far beyond every hit that POV-Ray counts, so that all of the scene is before a directional light. */
+static const double DIRECTIONAL_DISTANCE = 0x1p26;
+
+static void writeSpot(const Export *export, const Light *light)
+{
+    /* The farther the point, the less its rounding turns the axis. */
+    double distance = fmax(1, norm(light->position));
+    Vector3D target = addVectors(light->position, multVector(light->direction, distance));
+    textAppend(export->pov, "\n  spotlight point_at ");
+    textAppendPovVector(export->pov, target, export->scale);
+    textAppend(export->pov, " radius ");
+    textAppendPovNumber(export->pov, light->innerAngle);
+    textAppend(export->pov, " falloff ");
+    textAppendPovNumber(export->pov, light->outerAngle);
+    textAppend(export->pov, " tightness ");
+    textAppendPovNumber(export->pov, light->tightness);
+}
+
+/* One of the point lights that a light stands for. */
+static void writeLightSample(const Export *export, const Light *light, int sample)
+{
+    Text *pov = export->pov;
+    bool directional = light->kind == LIGHT_DIRECTIONAL;
+    textAppend(pov, "light_source {\n  ");
+    if (directional)
+        textAppendPovVector(pov, light->direction, -DIRECTIONAL_DISTANCE);
+    else
+        textAppendPovVector(pov, lightSamplePosition(light, sample), export->scale);
+    textAppend(pov, "\n  ");
+
+    /* Only whether it arrives matters. */
+    if (export->finish == FINISH_LIT) {
+        textAppend(pov, directional ? "rgb 1\n  parallel point_at 0\n}\n\n" : "rgb 1\n}\n\n");
+        return;
+    }
+    Color3f color = light->color;
+    if (light->kind == LIGHT_AREA)
+        color = scaleColor(color, 1.0 / lightSampleCount(light));
+    bool falls = !directional && light->falloff == FALLOFF_INVERSE_SQUARE;
+    textAppendPovColor(pov, color, falls ? export->scale * export->scale : 1);
+    if (falls)
+        textAppend(pov, "*K\n  fade_distance D fade_power 2");
+    if (light->kind == LIGHT_SPOT)
+        writeSpot(export, light);
+    textAppend(pov, directional ? "\n  parallel point_at 0\n}\n\n" : "\n}\n\n");
 }
 
 /* POV-Ray 3.7 fades by 2 / (1 + (d/D)^2). With D = 2^-20 and the colour times K = 1/(2 D^2), which is a
  * power of two and exact, that is 1 / (D^2 + d^2): within 1e-12 of 1/d^2. */
-static Status writeLights(const Scene *scene, Finish finish, double scale, Text *pov)
+static Status writeLights(const Export *export)
 {
-    if (finish == FINISH_REFLECTION && scene->lightCount > 0)
-        textAppend(pov, "#declare D = 1/1048576; // with fade_distance D and the color times K,\n"
-                        "#declare K = 1/(2*D*D); // the light falls off by 1/d^2\n\n");
-    for (size_t i = 0; i < scene->lightCount && finish != FINISH_UNLIT; i++) {
+    const Scene *scene = export->scene;
+    if (export->finish == FINISH_REFLECTION && scene->lightCount > 0)
+        textAppend(export->pov, "#declare D = 1/1048576; // with fade_distance D and the color times K,\n"
+                                "#declare K = 1/(2*D*D); // the light falls off by 1/d^2\n\n");
+    for (size_t i = 0; i < scene->lightCount && export->finish != FINISH_UNLIT; i++) {
         const Light *light = &scene->lights[i];
-        textAppend(pov, "light_source {\n  ");
-        textAppendPovVector(pov, light->position, scale);
-        textAppend(pov, "\n  ");
-        if (finish == FINISH_LIT) {
-            textAppend(pov, "rgb 1\n}\n\n");
-            continue;
-        }
-        bool falls = light->falloff == FALLOFF_INVERSE_SQUARE;
         double brightest = fmax((double)light->color.r, fmax((double)light->color.g, (double)light->color.b));
-        if (falls && brightest * scale * scale * 0x1p39 > (double)FLT_MAX)
+        if (light->falloff == FALLOFF_INVERSE_SQUARE && export->finish == FINISH_REFLECTION &&
+            brightest * export->scale * export->scale * 0x1p39 > (double)FLT_MAX)
             return statusError(
                 STATUS_INEXPRESSIBLE,
                 "light %zu is too bright for POV-Ray, which keeps colours in single precision; "
                 "a colour below 1e26 can be exported",
                 i + 1);
-        appendColor(pov, light->color, falls ? scale * scale : 1);
-        textAppend(pov, falls ? "*K\n  fade_distance D fade_power 2\n}\n\n" : "\n}\n\n");
+        for (int sample = 0; sample < lightSampleCount(light); sample++)
+            writeLightSample(export, light, sample);
     }
     return statusOk();
 }
 
-/* A material with a highlight is three layers, the last on top. The top one is half transparent and
- * twice as bright: the diffuse term. The middle one filters what lies below to the specular colour. The
- * bottom one is a white highlight. So each channel has its own highlight, exactly. */
-static void writeMaterial(const Material *material, Finish finish, bool highlight, Text *pov)
-{
-    if (finish == FINISH_UNLIT || finish == FINISH_LIT) {
-        textAppend(pov, "pigment { ");
-        appendColor(pov, material->diffuse, 1);
-        textAppend(pov, finish == FINISH_UNLIT ? " } finish { diffuse 0 emission 1 }"
-                                               : " } finish { brilliance 0 }");
-    } else if (!highlight) {
-        textAppend(pov, "pigment { ");
-        appendColor(pov, material->diffuse, 1);
-        textAppend(pov, " }");
-    } else {
-        textAppend(pov, "texture { pigment { rgb 0 } finish { diffuse 0 phong 1 phong_size ");
-        textAppendPovNumber(pov, (double)material->shininess);
-        textAppend(pov, " } }\n  texture { pigment { ");
-        appendColor(pov, material->specular, 2);
-        textAppend(pov, " filter 1 } finish { diffuse 0 } }\n  texture { pigment { ");
-        appendColor(pov, material->diffuse, 2);
-        textAppend(pov, " transmit 0.5 } }");
-    }
-}
+/* ---- Objects ---- */
 
-static void writeObjects(const Scene *scene, Finish finish, double scale, Text *pov)
+/* An object up to its closing brace. */
+static void writeObject(const Export *export, const Object *object)
 {
-    for (size_t i = 0; i < scene->objectCount; i++) {
-        const Object *object = &scene->objects[i];
-        objectShape(object)->writePov(object, scale, pov);
+    Text *pov = export->pov;
+    objectShape(object)->writePov(object, export->scale, pov);
+    textAppend(pov, "\n  ");
+    if (object->kind == SHAPE_CSG) {
+        for (size_t i = 0; i < object->csg.partCount; i++) {
+            writeObject(export, &object->csg.parts[i]);
+            textAppend(pov, "\n}\n");
+        }
+        const Material *glass = transmissivePart(export->scene, object);
+        if (glass != NULL)
+            textAppendPovInterior(pov, glass);
+        return;
+    }
+    textAppendPovTexture(pov, export->scene, &object->material, export->finish, export->scale,
+                         export->extent);
+    if (object->transform != NULL) {
         textAppend(pov, "\n  ");
-        bool highlight = scene->render.model == MODEL_PHONG && !colorIsBlack(object->material.specular);
-        writeMaterial(&object->material, finish, highlight, pov);
-        textAppend(pov, scene->render.shadows ? "\n}\n\n" : "\n  no_shadow\n}\n\n");
+        textAppendPovMatrix(pov, &object->transform->worldFromObject, export->scale);
     }
 }
 
-Status exportPov(const Scene *scene, const char *name, Text *pov)
+static void writeObjects(const Export *export)
 {
-    /* Refuse what POV-Ray cannot say. */
-    bool simple = scene->render.model == MODEL_SIMPLE;
-    bool lightsMatter = scene->render.shadows && scene->lightCount > 0;
+    for (size_t i = 0; i < export->scene->objectCount; i++) {
+        const Object *object = &export->scene->objects[i];
+        writeObject(export, object);
+        if (object->kind != SHAPE_CSG && transmissivePart(export->scene, object) != NULL)
+            textAppendPovInterior(export->pov, &object->material);
+        bool castsShadow = export->scene->render.shadows && !object->noShadow;
+        textAppend(export->pov, castsShadow ? "\n}\n\n" : "\n  no_shadow\n}\n\n");
+    }
+}
+
+/* ---- What can be said ---- */
+
+/* Count the surfaces by whether their model is the simple one. */
+static void countModels(const Scene *scene, const Object *object, size_t *simple, size_t *other)
+{
+    if (object->kind == SHAPE_CSG) {
+        for (size_t i = 0; i < object->csg.partCount; i++)
+            countModels(scene, &object->csg.parts[i], simple, other);
+    } else if (materialModel(scene, &object->material) == MODEL_SIMPLE) {
+        ++*simple;
+    } else {
+        ++*other;
+    }
+}
+
+/* Decide how the materials are written, or refuse. */
+static Status chooseFinish(const Scene *scene, PovFinish *finish)
+{
     if (!isnan(scene->render.shadowBias))
         return statusError(
             STATUS_INEXPRESSIBLE,
             "render.shadow_bias cannot be exported: POV-Ray's own bias is fixed; remove the key "
             "to compare with POV-Ray");
-    if (simple && lightsMatter && scene->lightCount > 1)
-        return statusError(STATUS_INEXPRESSIBLE,
-                           "the simple model with several lights (here %zu) cannot be exported: POV-Ray adds "
-                           "lights up, and the simple model does not; use one light, or shadows: false",
-                           scene->lightCount);
+    size_t simple = 0, other = 0;
+    for (size_t i = 0; i < scene->objectCount; i++)
+        countModels(scene, &scene->objects[i], &simple, &other);
+    if (simple > 0 && other > 0)
+        return statusError(
+            STATUS_INEXPRESSIBLE,
+            "the simple model beside other models in one scene cannot be exported: its light is "
+            "not POV-Ray's; use one or the other");
+    *finish = FINISH_REFLECTION;
+    if (simple == 0)
+        return statusOk();
 
-    Finish finish = !simple ? FINISH_REFLECTION : lightsMatter ? FINISH_LIT : FINISH_UNLIT;
-    double scale = povScale(scene);
-    writeHeader(scene, name, scale, pov);
-    textAppend(pov, "background { ");
-    appendColor(pov, scene->background, 1);
-    textAppend(pov, " }\n\n");
-    writeCamera(scene, scale, pov);
-    Status status = writeLights(scene, finish, scale, pov);
+    int lights = 0;
+    for (size_t i = 0; i < scene->lightCount; i++)
+        lights += lightSampleCount(&scene->lights[i]);
+    bool lightsMatter = scene->render.shadows && lights > 0;
+    if (lightsMatter && lights > 1)
+        return statusError(STATUS_INEXPRESSIBLE,
+                           "the simple model with several lights (here %d) cannot be exported: POV-Ray adds "
+                           "lights up, and the simple model does not; use one light, or shadows: false",
+                           lights);
+    *finish = lightsMatter ? FINISH_LIT : FINISH_UNLIT;
+    return statusOk();
+}
+
+Status exportPov(const Scene *scene, const char *name, Text *pov)
+{
+    Export export = {.scene = scene, .pov = pov, .scale = povScale(scene), .extent = sceneExtent(scene)};
+    Status status = chooseFinish(scene, &export.finish);
     if (!statusIsOk(&status))
         return status;
-    writeObjects(scene, finish, scale, pov);
+    writeHeader(scene, name, export.scale, pov);
+    writeBackground(&export);
+    writeCamera(&export);
+    status = writeLights(&export);
+    if (!statusIsOk(&status))
+        return status;
+    writeObjects(&export);
     return pov->failed ? statusOutOfMemory() : statusOk();
 }

@@ -1,11 +1,18 @@
 /* pov_scale.c - the size at which POV-Ray sees a scene as we do; see pov_scale.h. */
 #include "povray/pov_scale.h"
 
+#include "povray/pov_texture.h"
+
 /* Parts that are a hundred times POV-Ray's shadow tolerance need no help. */
 static const double SMALLEST_PART = 0.1;
 static const double FARTHEST_PART = 1e4;
 /* Even for the sake of small parts nothing is moved farther away; POV-Ray's limit is 1e7. */
 static const double FARTHEST_EXPORTED = 0x1p22;
+
+/* Inside glass, rays meet surfaces at all distances, down to nothing in the edges, and a shadow counts how
+ * many it crosses. So transparent parts are made larger, as far as the horizon of a plane allows. */
+static const double SMALLEST_GLASS = 128;
+static const double FARTHEST_WITH_GLASS = 0x1p13;
 
 /* The distance from the camera to the farthest corner of a box. */
 static double farthestCorner(Bounds bounds, Vector3D camera)
@@ -22,26 +29,43 @@ double povScale(const Scene *scene)
     for (size_t i = 0; i < scene->objectCount; i++) {
         const Object *object = &scene->objects[i];
         Bounds bounds;
-        if (objectShape(object)->bounds(object, &bounds)) {
+        if (objectBounds(object, &bounds)) {
             Vector3D size = subVectors(bounds.max, bounds.min);
             smallest = fmin(smallest, fmin(size.x, fmin(size.y, size.z)));
             farthest = fmax(farthest, farthestCorner(bounds, scene->camera.position));
         }
     }
     for (size_t i = 0; i < scene->lightCount; i++)
-        farthest = fmax(farthest, norm(subVectors(scene->lights[i].position, scene->camera.position)));
+        if (scene->lights[i].kind != LIGHT_DIRECTIONAL)
+            farthest = fmax(farthest, norm(subVectors(scene->lights[i].position, scene->camera.position)));
 
     /* A scene of planes only is as large as its lights are far. */
     if (!isfinite(smallest))
         smallest = farthest;
     if (!(smallest > 0) || !isfinite(farthest) || !(farthest > 0))
         return 1;
-    if (smallest >= SMALLEST_PART && farthest <= FARTHEST_PART)
+    bool glass = false;
+    for (size_t i = 0; i < scene->objectCount && !glass; i++)
+        glass = transmissivePart(scene, &scene->objects[i]) != NULL;
+    if (!glass && smallest >= SMALLEST_PART && farthest <= FARTHEST_PART)
         return 1;
 
-    /* Bring the smallest part to a size of 1 to 2, and the farthest within reach. */
+    /* Bring the smallest part to a size of 1 to 2, or more with glass, and the farthest within reach. */
     double scale = exp2(-floor(log2(smallest)));
     while (farthest * scale > FARTHEST_EXPORTED)
         scale /= 2;
+    while (glass && smallest * scale < SMALLEST_GLASS && farthest * scale * 2 <= FARTHEST_WITH_GLASS)
+        scale *= 2;
     return scale;
+}
+
+double sceneExtent(const Scene *scene)
+{
+    double extent = largestCoordinate(scene->camera.position);
+    for (size_t i = 0; i < scene->objectCount; i++) {
+        Bounds bounds;
+        if (objectBounds(&scene->objects[i], &bounds))
+            extent = fmax(extent, fmax(largestCoordinate(bounds.min), largestCoordinate(bounds.max)));
+    }
+    return extent;
 }

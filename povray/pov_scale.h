@@ -10,7 +10,10 @@
 
 #include "raytracer.h"
 
-/* The factor: 1 for a scene whose parts are at least 0.1 and at most 1e4 away; above 0. */
+/* The factor: 1 for a scene without glass whose parts are at least 0.1 and at most 1e4 away; above 0. */
 double povScale(const Scene *scene);
+
+/* The largest coordinate of the camera and of all objects that have an end. */
+double sceneExtent(const Scene *scene);
 
 #endif

@@ -55,6 +55,13 @@ static inline Color3f scaleColor(Color3f c, double factor)
                      (float)((double)c.b * factor)};
 }
 
+/* a for t = 0, b for t = 1, rounded to float at each step as POV-Ray does it: a + t (b - a). */
+static inline Color3f mixColors(Color3f a, Color3f b, double t)
+{
+    Color3f difference = {b.r - a.r, b.g - a.g, b.b - a.b};
+    return addColors(a, scaleColor(difference, t));
+}
+
 static inline bool colorIsBlack(Color3f c)
 {
     return c.r == 0 && c.g == 0 && c.b == 0;

@@ -281,7 +281,7 @@ static Color3f backgroundColor(const Background *background, const Ray *ray)
     if (!background->isGradient)
         return background->bottom;
     double t = (1 + ray->direction.y) / 2;
-    return addColors(scaleColor(background->bottom, 1 - t), scaleColor(background->top, t));
+    return mixColors(background->bottom, background->top, t);
 }
 
 /* What is left of a colour behind fog, and the fog's own. */

@@ -14,14 +14,6 @@ static Color3f checkerColor(const Pattern *pattern, Vector3D p)
     return pattern->colors[fmod(sum, 2) != 0];
 }
 
-/* From a to b over each period, each channel rounded to float once. */
-static Color3f mix(Color3f a, Color3f b, double t)
-{
-    return createColor((float)((double)a.r * (1 - t) + (double)b.r * t),
-                       (float)((double)a.g * (1 - t) + (double)b.g * t),
-                       (float)((double)a.b * (1 - t) + (double)b.b * t));
-}
-
 /* The texel at (u, v), which repeats outside 0..1. */
 static Color3f texel(const Pattern *pattern, double u, double v)
 {
@@ -54,7 +46,7 @@ Color3f patternColor(const Pattern *pattern, Vector3D point)
     case PATTERN_STRIPES:
         return pattern->colors[fraction(along) >= 0.5];
     case PATTERN_GRADIENT:
-        return mix(pattern->colors[0], pattern->colors[1], fraction(along));
+        return mixColors(pattern->colors[0], pattern->colors[1], fraction(along));
     default:
         return imageColor(pattern, point);
     }

@@ -36,7 +36,8 @@ typedef struct Pattern {
     PatternMapping mapping;
     int width, height;
     const Color3f *texels; /* owned by the scene */
-    const char *path;      /* the PNG file, for POV-Ray; owned by the scene */
+    const char *path;      /* the PNG file, absolute, for POV-Ray; owned by the scene */
+    bool isLinear;         /* the file's samples are linear, not sRGB */
 } Pattern;
 
 /* The colour at a point of the object's own space. */

@@ -1,0 +1,32 @@
+/* pov_texture.h - a material as POV-Ray's layers of texture (MAPPING.md). */
+#ifndef ECLAIRAGE_POVRAY_POV_TEXTURE_H
+#define ECLAIRAGE_POVRAY_POV_TEXTURE_H
+
+#include "base/text.h"
+#include "raytracer.h"
+
+/* How the materials of a scene are to be written. */
+typedef enum PovFinish {
+    FINISH_UNLIT,     /* the diffuse colour as it is */
+    FINISH_LIT,       /* the diffuse colour where the light arrives, black elsewhere */
+    FINISH_REFLECTION /* the terms of the material's model */
+} PovFinish;
+
+/* Append "rgb <r, g, b>", each component times factor. */
+void textAppendPovColor(Text *pov, Color3f color, double factor);
+
+/* Append the textures of a material, the top layer last. scale: of all lengths; extent: how far from the
+ * origin points of the scene can be, in scene units. */
+void textAppendPovTexture(Text *pov, const Scene *scene, const Material *material, PovFinish finish,
+                          double scale, double extent);
+
+/* The first material in the object that rays go through, or NULL. */
+const Material *transmissivePart(const Scene *scene, const Object *object);
+
+/* Append the interior that such an object has. */
+void textAppendPovInterior(Text *pov, const Material *material);
+
+/* Append "matrix <...>", the translation times scale. */
+void textAppendPovMatrix(Text *pov, const Matrix *matrix, double scale);
+
+#endif
