@@ -1,80 +1,34 @@
 /* mesh.c - many triangles as one object; see mesh.h. */
 #include "shapes/mesh.h"
 
+#include "shapes/mesh_build.h"
 #include "shapes/shape.h"
 
+#include <limits.h>
 #include <stdlib.h>
 
-static void meshIntersect(const Object *object, const Ray *ray, HitSink *sink)
-{
-    const MeshData *data = object->mesh.data;
-    for (size_t i = 0; i < data->triangleCount; i++) {
-        const uint32_t *corners = data->triangles[i].vertices;
-        Vector3D a = data->vertices[corners[0]];
-        Vector3D e1 = subVectors(data->vertices[corners[1]], a);
-        Vector3D e2 = subVectors(data->vertices[corners[2]], a);
-        Vector3D p = cross(ray->direction, e2);
-        double determinant = dot(e1, p);
-        Vector3D s = subVectors(ray->origin, a);
-        Vector3D q = cross(s, e1);
-        double u = dot(s, p) / determinant, v = dot(ray->direction, q) / determinant;
-        if (u >= 0 && v >= 0 && u + v <= 1)
-            reportHit(sink, dot(e2, q) / determinant, (int)i, u, v);
-    }
-}
-
-static Vector3D meshNormal(const Object *object, const Hit *hit, Vector3D position)
-{
-    (void)position;
-    const MeshData *data = object->mesh.data;
-    const MeshTriangle *triangle = &data->triangles[hit->part];
-    Vector3D a = data->vertices[triangle->vertices[0]];
-    return normalize(cross(subVectors(data->vertices[triangle->vertices[1]], a),
-                           subVectors(data->vertices[triangle->vertices[2]], a)));
-}
-
-static bool meshHasInside(const Object *object)
-{
-    return object->mesh.data->isClosed;
-}
-
-static bool meshBounds(const Object *object, Bounds *bounds)
-{
-    *bounds = object->mesh.data->bounds;
-    return true;
-}
-
-static double meshMagnitude(const Object *object)
-{
-    const Bounds *bounds = &object->mesh.data->bounds;
-    return fmax(largestCoordinate(bounds->min), largestCoordinate(bounds->max));
-}
-
-static void meshWritePov(const Object *object, double scale, Text *pov)
-{
-    (void)object;
-    (void)scale;
-    textAppend(pov, "mesh {");
-}
-
-const Shape meshShape = {.name = "mesh",
-                         .intersect = meshIntersect,
-                         .normal = meshNormal,
-                         .contains = containsNothing,
-                         .hasInside = meshHasInside,
-                         .bounds = meshBounds,
-                         .magnitude = meshMagnitude,
-                         .writePov = meshWritePov};
+/* ---- Making and freeing ---- */
 
 Status buildMesh(MeshData *mesh)
 {
-    mesh->bounds = (Bounds){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (size_t i = 0; i < mesh->vertexCount; i++) {
-        Vector3D p = mesh->vertices[i], low = mesh->bounds.min, high = mesh->bounds.max;
-        mesh->bounds.min = createVector(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-        mesh->bounds.max = createVector(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-    }
-    return statusOk();
+    if (mesh->triangleCount > INT_MAX || mesh->vertexCount >= UINT32_MAX || mesh->normalCount >= UINT32_MAX)
+        return statusError(STATUS_SCENE,
+                           "The mesh has more than %d triangles, vertices or normals; cut it "
+                           "into several files.",
+                           INT_MAX);
+    Status status = weldVertices(mesh);
+    if (statusIsOk(&status))
+        status = findWhetherClosed(mesh);
+    if (!statusIsOk(&status))
+        return status;
+    dropDegenerateTriangles(mesh);
+    if (mesh->triangleCount == 0)
+        return statusError(STATUS_SCENE, "No face has an area, so there is nothing to see; check the "
+                                         "coordinates of the corners.");
+    status = completeNormals(mesh);
+    if (statusIsOk(&status))
+        status = buildMeshTree(mesh);
+    return status;
 }
 
 void freeMesh(MeshData *mesh)
@@ -88,9 +42,183 @@ void freeMesh(MeshData *mesh)
     free(mesh);
 }
 
-Status readObjMesh(const char *path, bool smooth, MeshData **mesh)
+/* ---- Hits ---- */
+
+/* The sink, and how far the ray's hits are of interest. */
+typedef struct Reporting {
+    HitSink *sink;
+    double limit; /* in the mesh's own space */
+} Reporting;
+
+static double limitOf(const HitSink *sink)
 {
-    (void)smooth;
-    (void)mesh;
-    return statusError(STATUS_SCENE, "%s: OBJ files are not read yet.", path);
+    return sink->keepAll ? INFINITY : sink->nearest.distance / sink->scale;
 }
+
+static void report(void *context, size_t triangle, const TriangleHit *hit)
+{
+    Reporting *reporting = context;
+    reportHit(reporting->sink, hit->distance, (int)triangle, hit->share1, hit->share2);
+    reporting->limit = limitOf(reporting->sink);
+}
+
+static void meshIntersect(const Object *object, const Ray *ray, HitSink *sink)
+{
+    Reporting reporting = {sink, limitOf(sink)};
+    walkMesh(object->mesh.data, ray, &reporting.limit, report, &reporting);
+}
+
+static Vector3D meshNormal(const Object *object, const Hit *hit, Vector3D position)
+{
+    (void)position;
+    const MeshData *mesh = object->mesh.data;
+    if (mesh->isSmooth) {
+        /* The mean of the corners' normals by the hit's shares (Phong 1975). POV-Ray's smooth triangle has
+         * the same in other words: n0 + a ((n1 - n0) + b (n2 - n1)) with a = u + v and b = v / a. */
+        const uint32_t *indices = mesh->triangles[hit->part].normals;
+        Vector3D n0 = mesh->normals[indices[0]], n1 = mesh->normals[indices[1]];
+        Vector3D n2 = mesh->normals[indices[2]];
+        Vector3D along =
+            addVectors(multVector(subVectors(n1, n0), hit->u), multVector(subVectors(n2, n0), hit->v));
+        Vector3D mean = addVectors(n0, along);
+        if (norm(mean) > 1e-9)
+            return normalize(mean);
+    }
+    Vector3D corners[3];
+    meshCorners(mesh, (size_t)hit->part, corners);
+    return normalize(triangleCross(corners));
+}
+
+/* ---- Inside ---- */
+
+static bool meshHasInside(const Object *object)
+{
+    return object->mesh.data->isClosed;
+}
+
+/* How often a ray crosses the surface. */
+typedef struct Crossings {
+    double tolerance; /* a crossing nearer than it is the start itself */
+    bool isOdd;
+    bool startsOnSurface;
+    bool isDoubtful; /* one of them is through an edge, where it is not sure how often it counts */
+} Crossings;
+
+static void countCrossing(void *context, size_t triangle, const TriangleHit *hit)
+{
+    (void)triangle;
+    Crossings *crossings = context;
+    if (fabs(hit->distance) <= crossings->tolerance)
+        crossings->startsOnSurface = true;
+    if (hit->distance > 0) {
+        crossings->isOdd = !crossings->isOdd;
+        crossings->isDoubtful |= hit->isOnEdge;
+    }
+}
+
+/* How often the surface goes round the point, from the solid angle of each triangle (Jacobson, Kavan and
+ * Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding numbers", eq. 5; the
+ * angle by van Oosterom and Strackee 1983). Certain everywhere, but it looks at all triangles. */
+static double windingNumber(const MeshData *mesh, Vector3D point)
+{
+    double halfAngles = 0;
+    for (size_t i = 0; i < mesh->triangleCount; i++) {
+        Vector3D p[3];
+        meshCorners(mesh, i, p);
+        Vector3D a = subVectors(p[0], point), b = subVectors(p[1], point), c = subVectors(p[2], point);
+        double la = norm(a), lb = norm(b), lc = norm(c);
+        halfAngles +=
+            atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    }
+    return halfAngles / (2 * 3.14159265358979323846);
+}
+
+/* Whether a ray from the point crosses the surface an odd number of times; that is POV-Ray's rule too. */
+static bool meshContains(const Object *object, Vector3D point)
+{
+    /* Rays that are parallel to nothing a modeller draws; each is taken only where the last was doubtful. */
+    static const Vector3D directions[] = {{0.5127, 0.7441, 0.4283},
+                                          {-0.6329, 0.4587, 0.6238},
+                                          {0.3371, -0.8123, 0.4759},
+                                          {0.2713, 0.3917, -0.8791}};
+    const MeshData *mesh = object->mesh.data;
+    if (!mesh->isClosed)
+        return false;
+    const Bounds *bounds = &mesh->bounds;
+    if (!(point.x > bounds->min.x && point.x < bounds->max.x && point.y > bounds->min.y &&
+          point.y < bounds->max.y && point.z > bounds->min.z && point.z < bounds->max.z))
+        return false;
+    double size = fmax(largestCoordinate(bounds->min), largestCoordinate(bounds->max));
+    for (size_t i = 0; i < sizeof directions / sizeof *directions; i++) {
+        Ray ray = createRay(point, normalize(directions[i]));
+        Crossings crossings = {.tolerance = 0x1p-46 * size};
+        double limit = INFINITY;
+        walkMesh(mesh, &ray, &limit, countCrossing, &crossings);
+        if (crossings.startsOnSurface)
+            return false;
+        if (!crossings.isDoubtful)
+            return crossings.isOdd;
+    }
+    return fabs(remainder(windingNumber(mesh, point), 2)) > 0.5;
+}
+
+/* ---- Size ---- */
+
+static bool meshBounds(const Object *object, Bounds *bounds)
+{
+    *bounds = object->mesh.data->bounds;
+    return true;
+}
+
+static double meshMagnitude(const Object *object)
+{
+    const Bounds *bounds = &object->mesh.data->bounds;
+    return fmax(largestCoordinate(bounds->min), largestCoordinate(bounds->max));
+}
+
+/* ---- POV-Ray ---- */
+
+static void meshWritePov(const Object *object, double scale, Text *pov)
+{
+    const MeshData *mesh = object->mesh.data;
+    textAppend(pov, "mesh2 {\n  vertex_vectors { ");
+    textAppendFormat(pov, "%zu", mesh->vertexCount);
+    for (size_t i = 0; i < mesh->vertexCount; i++) {
+        textAppend(pov, ",\n    ");
+        textAppendPovVector(pov, mesh->vertices[i], scale);
+    }
+    textAppend(pov, " }\n");
+    if (mesh->isSmooth) {
+        textAppendFormat(pov, "  normal_vectors { %zu", mesh->normalCount);
+        for (size_t i = 0; i < mesh->normalCount; i++) {
+            textAppend(pov, ",\n    ");
+            textAppendPovVector(pov, mesh->normals[i], 1);
+        }
+        textAppend(pov, " }\n");
+    }
+    textAppendFormat(pov, "  face_indices { %zu", mesh->triangleCount);
+    for (size_t i = 0; i < mesh->triangleCount; i++) {
+        const uint32_t *v = mesh->triangles[i].vertices;
+        textAppendFormat(pov, ",\n    <%u, %u, %u>", v[0], v[1], v[2]);
+    }
+    textAppend(pov, " }\n");
+    if (mesh->isSmooth) {
+        textAppendFormat(pov, "  normal_indices { %zu", mesh->triangleCount);
+        for (size_t i = 0; i < mesh->triangleCount; i++) {
+            const uint32_t *n = mesh->triangles[i].normals;
+            textAppendFormat(pov, ",\n    <%u, %u, %u>", n[0], n[1], n[2]);
+        }
+        textAppend(pov, " }\n");
+    }
+    if (mesh->isClosed)
+        textAppend(pov, "  inside_vector <0.5127, 0.7441, 0.4283>\n");
+}
+
+const Shape meshShape = {.name = "mesh",
+                         .intersect = meshIntersect,
+                         .normal = meshNormal,
+                         .contains = meshContains,
+                         .hasInside = meshHasInside,
+                         .bounds = meshBounds,
+                         .magnitude = meshMagnitude,
+                         .writePov = meshWritePov};
