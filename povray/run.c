@@ -141,21 +141,30 @@ static void quoteLog(const char *path, char quote[600])
     free(log);
 }
 
-/* Run it in the folder, which holds scene.pov and empty.ini; the picture is picture.png there. */
-static Status runIn(const char *folder, const PovraySettings *settings)
+/* Run it in the folder, which holds scene.pov and empty.ini; the picture is picture.png there. With
+ * antialias it is the mean of samples^2 + 1 rays: those and the one in the middle. */
+static Status runIn(const char *folder, const PovraySettings *settings, bool antialias)
 {
     char *program = searchPath("povray");
     if (program == NULL)
         return findPovray();
 
-    char size[2][24], format[8], threads[16];
+    char size[2][24], format[8], threads[16], samples[16];
     snprintf(size[0], sizeof size[0], "+W%d", settings->width);
     snprintf(size[1], sizeof size[1], "+H%d", settings->height);
     snprintf(format, sizeof format, "+FN%d", settings->bitDepth == 16 ? 16 : 8);
     snprintf(threads, sizeof threads, "+WT%d", settings->threads > 0 ? settings->threads : 1);
+    snprintf(samples, sizeof samples, "+R%d", settings->samples);
     char *gamma = settings->encoding == ENCODING_LINEAR ? "File_Gamma=1.0" : "File_Gamma=srgb";
-    char *arguments[] = {"povray", "+Iscene.pov", "+Opicture.png", size[0], size[1], format, gamma, "-A",
-                         "-D",     "-P",          threads,         NULL};
+    char *arguments[] = {"povray", "+Iscene.pov", "+Opicture.png", size[0], size[1], format, gamma,
+                         "-D",     "-P",          threads,         "-A",    NULL,    NULL,   NULL,
+                         NULL};
+    if (antialias) {
+        arguments[10] = "+A0.0";
+        arguments[11] = "+AM1";
+        arguments[12] = samples;
+        arguments[13] = "-J";
+    }
     Text path = {0}, home = {0}, ini = {0}, log = {0};
     const char *searched = getenv("PATH");
     textAppendFormat(&path, "PATH=%s", searched != NULL ? searched : "/usr/local/bin:/usr/bin:/bin");
@@ -186,6 +195,35 @@ static Status runIn(const char *folder, const PovraySettings *settings)
     return status;
 }
 
+/* Run and read the picture. */
+static Status drawIn(const char *folder, const PovraySettings *settings, const char *picture, bool antialias,
+                     Image *image)
+{
+    Status status = runIn(folder, settings, antialias);
+    if (!statusIsOk(&status))
+        return status;
+    status = readPng(picture, image);
+    if (status.code == STATUS_IO && access(picture, R_OK) != 0)
+        status = statusError(STATUS_POVRAY, "POV-Ray wrote no picture");
+    unlink(picture);
+    return status;
+}
+
+/* Of the mean of n^2 + 1 rays and the one in the middle, the mean of the n^2 others:
+ * ((n^2 + 1) mean - middle) / n^2, into middle. */
+static void takeOutMiddle(const Image *mean, Image *middle, int n)
+{
+    if (mean->width != middle->width || mean->height != middle->height)
+        return;
+    int64_t rays = (int64_t)n * n, largest = imageMaxSample(middle);
+    size_t count = 3 * (size_t)middle->width * (size_t)middle->height;
+    for (size_t i = 0; i < count; i++) {
+        int64_t others = (rays + 1) * mean->samples[i] - middle->samples[i];
+        int64_t rounded = others > 0 ? (others + rays / 2) / rays : 0;
+        middle->samples[i] = (uint16_t)(rounded < largest ? rounded : largest);
+    }
+}
+
 Status runPovray(const char *pov, const PovraySettings *settings, Image *image)
 {
     Status status = findPovray();
@@ -208,11 +246,16 @@ Status runPovray(const char *pov, const PovraySettings *settings, Image *image)
     if (statusIsOk(&status))
         status = writeWholeFile(ini.data, "", 0);
     if (statusIsOk(&status))
-        status = runIn(folder, settings);
-    if (statusIsOk(&status)) {
-        status = readPng(picture.data, image);
-        if (status.code == STATUS_IO && access(picture.data, R_OK) != 0)
-            status = statusError(STATUS_POVRAY, "POV-Ray wrote no picture");
+        status = drawIn(folder, settings, picture.data, false, image);
+    if (statusIsOk(&status) && settings->samples > 1) {
+        Image mean;
+        status = drawIn(folder, settings, picture.data, true, &mean);
+        if (statusIsOk(&status)) {
+            takeOutMiddle(&mean, image, settings->samples);
+            freeImage(&mean);
+        } else {
+            freeImage(image);
+        }
     }
     textFree(&scene);
     textFree(&ini);

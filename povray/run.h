@@ -9,6 +9,7 @@ typedef struct PovraySettings {
     int width, height;
     int bitDepth; /* 8 or 16 */
     Encoding encoding;
+    int samples;           /* n for the mean of n x n rays a pixel; above 1 only with linear encoding */
     int threads;           /* POV-Ray's work threads, at least 1 */
     double timeoutSeconds; /* then it is killed: STATUS_POVRAY */
 } PovraySettings;
@@ -16,9 +17,10 @@ typedef struct PovraySettings {
 /* Whether there is a program povray on the PATH; STATUS_POVRAY with the command that installs it. */
 Status findPovray(void);
 
-/* Render the text of a .pov into *image, which the caller frees. STATUS_POVRAY when POV-Ray is missing,
- * fails (with the end of what it said) or takes too long; STATUS_INTERRUPTED when cancelled. Nothing is
- * left behind: no process, no file. */
+/* Render the text of a .pov into *image, which the caller frees. POV-Ray's own antialiasing adds the middle
+ * of the pixel to the n x n samples, so with samples above 1 it runs twice, with and without, and the middle
+ * is taken out again (MAPPING.md). STATUS_POVRAY when POV-Ray is missing, fails (with the end of what it
+ * said) or takes too long; STATUS_INTERRUPTED when cancelled. Nothing is left behind: no process, no file. */
 Status runPovray(const char *pov, const PovraySettings *settings, Image *image);
 
 #endif

@@ -74,7 +74,7 @@ struct Arguments {
     const char *folder;   /* of --out; NULL: not given */
     int width, height;    /* 0: not given */
     int samples, threads; /* 0: not given */
-    int model;            /* a ShadingModel or NOT_GIVEN */
+    int model;            /* a ShadingModel less MODEL_SIMPLE, or NOT_GIVEN */
     int engine;           /* NOT_GIVEN, or 0: reference */
     int encoding;         /* an Encoding or NOT_GIVEN */
     int depthChoice;      /* NOT_GIVEN, 0: 8 bits, 1: 16 bits */

@@ -228,6 +228,7 @@ static Status drawWithPovray(const Run *run, Job *job, const Scene *scene, const
                                .height = scene->image.height,
                                .bitDepth = scene->image.bitDepth,
                                .encoding = scene->image.encoding,
+                               .samples = scene->render.samples,
                                .threads = run->povrayThreads,
                                .timeoutSeconds = POVRAY_TIMEOUT};
     double start = secondsNow();

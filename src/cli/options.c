@@ -26,10 +26,10 @@ const Option OPTIONS[] = {
      .help = "draw N pixels wide; without --height the scene's aspect is kept"},
     {"height", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(height),
      .help = "draw N pixels high; without --width the scene's aspect is kept"},
-    {"model", 0, SIZED, VALUE_CHOICE, .choices = {"simple", "lambert", "phong"}, .later = "blinn_phong",
-     FIELD(model), .help = "shade with this model, whatever the scene says"},
+    {"model", 0, SIZED, VALUE_CHOICE, .choices = {"simple", "lambert", "phong", "blinn_phong"}, FIELD(model),
+     .help = "shade with this model, whatever the scene says"},
     {"samples", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 64, FIELD(samples),
-     .help = "take N x N samples in each pixel; only 1 in this version"},
+     .help = "draw each pixel as the mean of N x N samples"},
     {"threads", 0, DRAWING, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 256, FIELD(threads),
      .help = "draw on N threads (one for each processor); the picture is the same"},
     {"engine", 0, DRAWING, VALUE_CHOICE, .choices = {"reference"}, .later = "fast", FIELD(engine),
@@ -363,9 +363,6 @@ static Status checkTogether(const Arguments *arguments)
     if (standardInputs == 1 && command->bit == COMMAND_RENDER && arguments->output == NULL)
         return statusError(STATUS_USAGE, "a scene from standard input (-) has no name to make that of the "
                                          "picture from: give one with -o FILE");
-    if (arguments->samples > 1)
-        return statusError(STATUS_USAGE, "--samples %d does not exist yet in this version; only --samples 1",
-                           arguments->samples);
     if (arguments->json && arguments->output != NULL && strcmp(arguments->output, "-") == 0)
         return statusError(STATUS_USAGE, "-o - and --json would both write to standard output: "
                                          "give -o a file");

@@ -70,7 +70,9 @@ void overrideTolerance(const Tolerance *given, Tolerance *tolerance)
 static Status overrideScene(const Arguments *arguments, Scene *scene)
 {
     if (arguments->model != NOT_GIVEN)
-        scene->render.model = (ShadingModel)arguments->model;
+        scene->render.model = (ShadingModel)(MODEL_SIMPLE + arguments->model);
+    if (arguments->samples > 0)
+        scene->render.samples = arguments->samples;
     if (arguments->encoding != NOT_GIVEN)
         scene->image.encoding = (Encoding)arguments->encoding;
     if (arguments->depthChoice != NOT_GIVEN)
