@@ -22,6 +22,7 @@ static const PovraySettings small = {.width = 64,
                                      .height = 48,
                                      .bitDepth = 16,
                                      .encoding = ENCODING_LINEAR,
+                                     .samples = 1,
                                      .threads = 1,
                                      .timeoutSeconds = 60};
 
@@ -49,7 +50,7 @@ static void numbersAreWrittenInFull(void **state)
     (void)state;
     Scene scene = shinySphere();
     scene.objects[0].sphere.center.x = 0.1 + 0.2;
-    scene.background = createColor(1.0f / 3, 0, 0);
+    scene.background.bottom = createColor(1.0f / 3, 0, 0);
     char *pov = exported(&scene, "a.pov");
     assert_non_null(strstr(pov, "sphere { <0.30000000000000004, 0, -5>, 1.5"));
     assert_non_null(strstr(pov, "background { rgb <0.3333333432674408, 0, 0> }"));

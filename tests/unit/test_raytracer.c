@@ -375,7 +375,7 @@ static void handoutFunctionsIgnoreTheScenesModel(void **state)
     for (int model = 0; model < 3; model++) {
         functions[model](scene, framebuffer);
         Scene same = scene;
-        same.render.model = (ShadingModel)model;
+        same.render.model = (ShadingModel)(MODEL_SIMPLE + model);
         Framebuffer *expected = draw(&same, 80, 60, 1);
         assert_memory_equal(framebuffer->pixels, expected->pixels, 80 * 60 * sizeof(Color3f));
         freeFramebuffer(expected);
