@@ -89,11 +89,16 @@ static Interval insideEndlessCone(const Frame *frame, Vector3D p, Vector3D d)
         discriminant = 0;
     }
 
-    /* Solve it, the smaller root by the product of both; q is 0 only where both are at t = 0. */
-    double q = -(b + copysign(sqrt(discriminant), b));
+    /* Solve it, the root nearer to 0 by the product of both. Where c is only noise that root comes out too
+     * far, and the difference that is avoided otherwise is as good. */
+    double size = sqrt(discriminant);
+    double q = -(b + copysign(size, b));
     if (q == 0 && a == 0)
         return c <= 0 ? (Interval){-INFINITY, INFINITY} : nowhere;
-    double t1 = q != 0 ? c / q : 0, t2 = q != 0 && a != 0 ? q / a : q != 0 ? copysign(INFINITY, q) : 0;
+    double t2 = q == 0 ? 0 : a != 0 ? q / a : copysign(INFINITY, q);
+    double t1 = q == 0 ? 0 : c / q;
+    if (fabs(t1) > fabs(t2))
+        t1 = (copysign(size, b) - b) / a;
     if (a > 0)
         return (Interval){fmin(t1, t2), fmax(t1, t2)};
     /* Take the end that is on the half where the radius is positive. */

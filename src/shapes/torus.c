@@ -71,14 +71,10 @@ static double findRoot(const Torus *torus, Vector3D p, Vector3D d, double low, d
             high = t;
         /* Step by Newton where that stays in the bracket and at least halves the step before the last. */
         double next = t - value / slope;
-        if (next > low && next < high && fabs(2 * (next - t)) <= fabs(stepBefore)) {
-            stepBefore = step;
-        } else {
-            next = low + (high - low) / 2;
-            stepBefore = step;
-        }
-        step = next - t;
-        t = next;
+        bool converges = next >= low && next <= high && fabs(2 * (next - t)) <= fabs(stepBefore);
+        stepBefore = step;
+        step = (converges ? next : low + (high - low) / 2) - t;
+        t += step;
         if (fabs(step) <= enough)
             break;
     }
@@ -98,10 +94,13 @@ static void torusIntersect(const Object *object, const Ray *ray, HitSink *sink)
     if (!(reachSquared >= 0))
         return;
 
+    double reach = sqrt(reachSquared) + minor;
+    if (fabs(p.y) - fabs(d.y) * reach > minor)
+        return;
+
     /* Divide the way through the ball round the torus where F turns. */
     double a = dot(p, p) - major * major - minor * minor + 2 * major * major * d.y * d.y;
     double b = 2 * major * major * p.y * d.y;
-    double reach = sqrt(reachSquared) + minor;
     double turns[3], ends[5] = {-reach};
     int turnCount = solveCubic(a, b, turns), count = 1;
     for (int i = 0; i < turnCount; i++)

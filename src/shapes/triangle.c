@@ -61,6 +61,10 @@ static Across shear(const double corner[3], int x, int y, int z, double shearX, 
     return (Across){corner[x] - shearX * corner[z], corner[y] - shearY * corner[z]};
 }
 
+/* A ray that runs along the plane up to rounding misses: where it would meet it, rounding alone decides.
+ * The cosine of the angle to the normal. */
+static const double PARALLEL = 0x1p-40;
+
 static void triangleIntersect(const Object *object, const Ray *ray, HitSink *sink)
 {
     const Triangle *triangle = &object->triangle;
@@ -94,7 +98,7 @@ static void triangleIntersect(const Object *object, const Ray *ray, HitSink *sin
     /* Meet the plane. */
     Vector3D n = normalize(areaNormal(triangle->vertices));
     double slope = dot(n, ray->direction);
-    if (slope != 0)
+    if (fabs(slope) > PARALLEL)
         reportHit(sink, dot(n, subVectors(triangle->vertices[0], ray->origin)) / slope, 0, edgeB / sum,
                   edgeC / sum);
 }
