@@ -101,6 +101,8 @@ typedef struct Scene {
     size_t objectCount, objectCapacity;
     Tolerance tolerance;        /* for the comparison with POV-Ray */
     struct SceneMemory *memory; /* what allocateInScene gave */
+    MeshData **meshes;          /* what keepMeshInScene was given */
+    size_t meshCount, meshCapacity;
 } Scene;
 
 /* A light with the handout's falloff, 1/d^2. */
@@ -115,6 +117,10 @@ void freeScene(Scene *scene);
 /* Zeroed memory that lives as long as the scene, for transforms, patterns and texels; NULL when memory runs
  * out. */
 void *allocateInScene(Scene *scene, size_t size);
+
+/* Let the scene own a mesh, so that it is freed with it: any number of objects may share it. False when memory
+ * runs out, and then it is still the caller's. */
+bool keepMeshInScene(Scene *scene, MeshData *mesh);
 
 /* Add a copy, which from then on owns what the object owns. False when memory runs out, and then the scene is
  * as before. */

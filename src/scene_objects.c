@@ -35,6 +35,11 @@ void freeScene(Scene *scene)
     scene->objects = NULL;
     scene->lightCount = scene->lightCapacity = 0;
     scene->objectCount = scene->objectCapacity = 0;
+    for (size_t i = 0; i < scene->meshCount; i++)
+        freeMesh(scene->meshes[i]);
+    free(scene->meshes);
+    scene->meshes = NULL;
+    scene->meshCount = scene->meshCapacity = 0;
     while (scene->memory != NULL) {
         SceneMemory *next = scene->memory->next;
         free(scene->memory);
@@ -66,6 +71,16 @@ static void *growArray(void *array, size_t count, size_t *capacity, size_t itemS
     if (grown != NULL)
         *capacity = larger;
     return grown;
+}
+
+bool keepMeshInScene(Scene *scene, MeshData *mesh)
+{
+    MeshData **meshes = growArray(scene->meshes, scene->meshCount, &scene->meshCapacity, sizeof *meshes);
+    if (meshes == NULL)
+        return false;
+    scene->meshes = meshes;
+    scene->meshes[scene->meshCount++] = mesh;
+    return true;
 }
 
 bool addLightToScene(Scene *scene, Light light)

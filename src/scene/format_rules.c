@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-void finishImage(SceneReader *reader, const GivenKeys *given, void *values, void *target)
+void finishImage(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
     (void)target;
     const ImageSettings *image = values;
@@ -30,10 +30,29 @@ static bool isFiniteVector(Vector3D v)
  * can be meant. */
 static const double PARALLEL_SINE = 1e-9;
 
-void finishCamera(SceneReader *reader, const GivenKeys *given, void *values, void *target)
+/* An orthographic camera needs a view_height, another one cannot have it. */
+static void checkViewHeight(SceneReader *reader, const GivenKeys *given, bool isOrthographic)
+{
+    if (!isUsable(given, "projection") || !isUsable(given, "view_height"))
+        return;
+    if (isOrthographic && !isGiven(given, "view_height"))
+        reportError(reader, placeOfKey(given, "projection"),
+                    "add view_height: the height of the picture in scene units",
+                    "an orthographic camera needs a 'view_height'");
+    if (!isOrthographic && isGiven(given, "view_height"))
+        reportError(
+            reader, placeOfKey(given, "view_height"),
+            "add projection: orthographic, or leave view_height out",
+            "'view_height' is for an orthographic camera only; of a perspective one 'fov' says what is "
+            "seen");
+}
+
+void finishCamera(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
     const CameraValues *camera = values;
     Camera *built = target;
+    bool isOrthographic = camera->projection == PROJECTION_ORTHOGRAPHIC;
+    checkViewHeight(reader, given, isOrthographic);
     bool looksAt = isGiven(given, "look_at");
     Vector3D direction = camera->direction;
     reader->positionPlace = placeOfKey(given, "position");
@@ -66,60 +85,70 @@ void finishCamera(SceneReader *reader, const GivenKeys *given, void *values, voi
         (Camera){.position = camera->position, .direction = direction, .up = camera->up, .fov = camera->fov};
 }
 
-/* ---- Lights and objects ---- */
-
-void finishPoint(SceneReader *reader, const GivenKeys *given, void *values, void *target)
+/* The values are the scene's background. */
+void finishSky(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
+    (void)reader;
+    (void)given;
     (void)target;
-    const Light *read = values;
-    Light light = createLight(read->position, read->color);
-    light.falloff = read->falloff;
+    ((Background *)values)->isGradient = true;
+}
+
+/* ---- Lights ---- */
+
+/* Add a light of this kind with the values that were read. */
+static void addLight(SceneReader *reader, GivenKeys *given, const LightValues *read, LightKind kind)
+{
+    Light light = read->light;
+    light.kind = kind;
     addReadLight(reader, given, light);
 }
 
-void finishSphere(SceneReader *reader, const GivenKeys *given, void *values, void *target)
+void finishPoint(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
     (void)target;
-    const Sphere *read = &((const Object *)values)->sphere;
-    Sphere sphere = createSphere(read->center, read->radius, read->material);
-    addReadObject(reader, given, (Object){.kind = SHAPE_SPHERE, .sphere = sphere});
+    addLight(reader, given, values, LIGHT_POINT);
 }
 
-void finishCube(SceneReader *reader, const GivenKeys *given, void *values, void *target)
+void finishDirectional(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
     (void)target;
-    const Cube *read = &((const Object *)values)->cube;
-    Cube cube = createCube(read->center, read->size, read->material);
-    addReadObject(reader, given, (Object){.kind = SHAPE_CUBE, .cube = cube});
+    LightValues *read = values;
+    read->light.direction = normalize(read->light.direction);
+    read->light.falloff = FALLOFF_NONE;
+    addLight(reader, given, read, LIGHT_DIRECTIONAL);
 }
 
-void finishBox(SceneReader *reader, const GivenKeys *given, void *values, void *target)
+void finishSpot(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
     (void)target;
-    const Box *read = &((const Object *)values)->box;
-    if (isUsable(given, "min") && isUsable(given, "max")) {
-        const double min[3] = {read->min.x, read->min.y, read->min.z};
-        const double max[3] = {read->max.x, read->max.y, read->max.z};
-        for (int i = 0; i < 3; i++) {
-            char from[NUMBER_TEXT_SIZE], to[NUMBER_TEXT_SIZE];
-            if (min[i] < max[i])
-                continue;
-            reportError(reader, placeOfKey(given, "max"),
-                        min[i] > max[i] ? "exchange the two numbers"
-                                        : "a flat box is no box; make it a little thicker",
-                        "'min' must be below 'max' on each axis, but %c goes from %s to %s", "xyz"[i],
-                        formatDouble(from, min[i]), formatDouble(to, max[i]));
-            break;
-        }
+    LightValues *read = values;
+    Light *light = &read->light;
+    if (isGiven(given, "position") && isGiven(given, "look_at")) {
+        Vector3D axis = subVectors(read->lookAt, light->position);
+        if (axis.x == 0 && axis.y == 0 && axis.z == 0)
+            reportError(reader, placeOfKey(given, "look_at"), "move one of the two",
+                        "'look_at' is the light's own position, so it points nowhere");
+        if (!isFiniteVector(axis))
+            reportError(reader, placeOfKey(given, "look_at"), "use smaller numbers",
+                        "'look_at' and 'position' are too far apart");
+        light->direction = normalize(axis);
     }
-    addReadObject(reader, given,
-                  (Object){.kind = SHAPE_BOX, .box = createBox(read->min, read->max, read->material)});
+    if (isGiven(given, "inner_angle") && isGiven(given, "outer_angle") &&
+        light->innerAngle > light->outerAngle) {
+        char inner[NUMBER_TEXT_SIZE], outer[NUMBER_TEXT_SIZE];
+        reportError(reader, placeOfKey(given, "inner_angle"), "exchange the two numbers",
+                    "'inner_angle' must be at most 'outer_angle', which is %s, but is %s",
+                    formatDouble(outer, light->outerAngle), formatDouble(inner, light->innerAngle));
+    }
+    addLight(reader, given, read, LIGHT_SPOT);
 }
 
-void finishPlane(SceneReader *reader, const GivenKeys *given, void *values, void *target)
+void finishArea(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
     (void)target;
-    const Plane *read = &((const Object *)values)->plane;
-    Plane plane = createPlane(read->point, read->normal, read->material);
-    addReadObject(reader, given, (Object){.kind = SHAPE_PLANE, .plane = plane});
+    LightValues *read = values;
+    read->light.countU = read->samples[0];
+    read->light.countV = read->samples[1];
+    addLight(reader, given, read, LIGHT_AREA);
 }

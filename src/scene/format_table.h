@@ -14,19 +14,23 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* How a value is written, and what is stored at its offset. ORDER types: reader.c, read_values.c,
- * write_schema.c and write_reference.c switch over all of them. */
+/* How a value is written, and what is stored at its offset. ORDER types: format_table.c, reader.c,
+ * read_values.c, write_schema.c and write_reference.c switch over all of them. */
 typedef enum FormatType {
     FORMAT_NUMBER,    /* double; an optional one that is left out is NAN */
     FORMAT_FLOAT,     /* float */
     FORMAT_INTEGER,   /* int; with choices only those */
     FORMAT_BOOL,      /* bool */
-    FORMAT_CHOICE,    /* an enum: one of the words in choices */
+    FORMAT_CHOICE,    /* an enum: one of the words in choices; an optional one that is left out is 0 */
     FORMAT_POINT,     /* Vector3D: [x, y, z] */
     FORMAT_DIRECTION, /* Vector3D, not [0, 0, 0] */
-    FORMAT_COLOR,     /* Color3f: [r, g, b] or one number, at least 0 */
+    FORMAT_FACTORS,   /* Vector3D: [x, y, z] or one number for all three, none of them 0 */
+    FORMAT_COLOR,     /* Color3f: [r, g, b] or one number, at least 0; or else what mapping says */
+    FORMAT_FILE,      /* const char *, in the tree: a path, relative to the scene's folder */
+    FORMAT_SPHERES,   /* const YamlNode *: a list of [x, y, z, r], which finish reads; the range is of r */
     FORMAT_MATERIAL,  /* Material: a name from `materials`, or mapping written in place */
     FORMAT_MAPPING,   /* what mapping says */
+    FORMAT_STEPS,     /* a list, each item as mapping says; all with the same target */
     FORMAT_NAMED,     /* names the author chooses, with what mapping says behind each */
     FORMAT_KINDS      /* a list of mappings with one key, its kind */
 } FormatType;
@@ -59,6 +63,8 @@ typedef struct FormatKey {
     const char *otherwise; /* what the reference says of an optional key that is left out, or NULL */
     bool optional;         /* may be left out and has no default */
     FormatRange range;     /* of a number or an integer */
+    size_t count;          /* above 0: a list of so many values of the type, stored one after another */
+    size_t least;          /* items that a list of kinds has at least */
     const char *excludes;  /* the key it cannot stand together with, or NULL */
     const FormatChoice *choices;
     size_t choiceCount;
@@ -77,12 +83,18 @@ struct FormatMapping {
     size_t keyCount;
     const FormatKey *common; /* keys shared with others, such as the material of every object; or NULL */
     size_t commonCount;
+    const char *oneKey; /* not NULL: exactly one of its keys must be there; the hint for a second one */
+    bool isShared;      /* it is used by several keys, so that schema and reference describe it once */
+
+    /* Called when all keys were read but lists of kinds, which are read last: what is inside may depend on
+     * what is beside. May be NULL; finish is called in any case. */
+    void (*enter)(struct SceneReader *reader, struct GivenKeys *given, void *values);
 
     /* Check what goes beyond single keys and put the values where they belong. With valuesSize 0 the values
      * are target itself; otherwise they are in a place of their own of that many bytes, and finish does
      * what is to be done with them. May be NULL. */
     size_t valuesSize;
-    void (*finish)(struct SceneReader *reader, const struct GivenKeys *given, void *values, void *target);
+    void (*finish)(struct SceneReader *reader, struct GivenKeys *given, void *values, void *target);
 };
 
 struct FormatKinds {
@@ -99,8 +111,9 @@ enum {
 /* The whole format: the mapping that a scene file is. */
 extern const FormatMapping sceneFormat;
 
-/* The range of a colour's components. */
+/* The range of a colour's components, and of a scene's numbers without one. */
 extern const FormatRange colorRange;
+extern const FormatRange anyRange;
 
 static inline size_t formatKeyCount(const FormatMapping *mapping)
 {
@@ -130,6 +143,9 @@ void textAppendRange(Text *text, const FormatRange *range);
 
 /* Append the words of the choices, such as "srgb or linear". */
 void textAppendChoices(Text *text, const FormatKey *key);
+
+/* Append the keys of a mapping in braces, such as "{base, top}". */
+void textAppendShape(Text *text, const FormatMapping *mapping);
 
 /* Append what a value of the key is, such as "a number above 0". */
 void textAppendExpectation(Text *text, const FormatKey *key);

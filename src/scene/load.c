@@ -30,7 +30,7 @@ static void readItems(SceneReader *reader, YamlReader *yaml, const FormatKinds *
 {
     Place place;
     enterYaml(yaml, &place);
-    while (peekYaml(yaml) != NEXT_END && !yaml->failed && !reader->outOfMemory) {
+    while (peekYaml(yaml) != NEXT_END && !yaml->failed && !mustStop(reader)) {
         ArenaMark mark = arenaMark(&yaml->arena);
         size_t anchors = yaml->anchorNames.count;
         const YamlNode *item = readYamlNode(yaml);
@@ -95,13 +95,14 @@ static void readRoot(SceneReader *reader, YamlReader *yaml, GivenKeys *given)
     }
     Place place;
     enterYaml(yaml, &place);
-    while (peekYaml(yaml) != NEXT_END && !yaml->failed && !reader->outOfMemory)
+    while (peekYaml(yaml) != NEXT_END && !yaml->failed && !mustStop(reader))
         readSection(reader, yaml, given);
-    if (yaml->failed || reader->outOfMemory)
+    if (yaml->failed || mustStop(reader))
         return;
     leaveYaml(yaml);
     endMapping(reader, given, reader->scene, reader->scene);
-    resolveMaterials(reader);
+    reportUndefinedMaterials(reader);
+    finishObjects(reader);
 }
 
 /* What the diagnostics come to. */
@@ -119,14 +120,17 @@ static Status statusOfDiagnostics(const Diagnostics *diagnostics)
                          diagnostics->errors - 1);
 }
 
-Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnostics *diagnostics)
+/* path: of the scene, or NULL; the files it names are relative to its folder. */
+static Status loadText(const char *path, const char *text, size_t length, Scene *scene,
+                       Diagnostics *diagnostics)
 {
     *scene = createScene();
     Diagnostics found = {0};
     if (length > LARGEST_FILE)
         return statusError(STATUS_IO, "the scene is larger than 1 GiB");
     SourceText source = openSourceText(text, length);
-    SceneReader reader = beginReader(scene, &source, &found);
+    SceneFiles files = {.scenePath = path};
+    SceneReader reader = beginReader(scene, &source, &found, &files);
     EncodingFault fault;
     bool outOfMemory = false, interrupted = false;
     if (!checkEncoding(&source, &fault)) {
@@ -138,16 +142,17 @@ Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnost
         openYaml(&yaml, &source, &found);
         beginMapping(&sceneFormat, (Place){1, 1, 1}, &given, scene);
         readRoot(&reader, &yaml, &given);
-        if (!reader.outOfMemory)
+        if (!mustStop(&reader))
             finishYaml(&yaml);
         outOfMemory = yaml.outOfMemory;
-        interrupted = yaml.interrupted;
-        if (found.errors == 0 && !yaml.failed && !reader.outOfMemory)
+        interrupted = yaml.interrupted || reader.interrupted;
+        if (found.errors == 0 && !yaml.failed && !mustStop(&reader))
             addSceneWarnings(&reader, &given);
         closeYaml(&yaml);
     }
     outOfMemory = outOfMemory || reader.outOfMemory || found.outOfMemory;
     freeReader(&reader);
+    freeSceneFiles(&files);
     closeSourceText(&source);
 
     /* Hand over what was found, and the scene only when all is well. */
@@ -163,6 +168,11 @@ Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnost
     return status;
 }
 
+Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnostics *diagnostics)
+{
+    return loadText(NULL, text, length, scene, diagnostics);
+}
+
 Status loadScene(const char *path, Scene *scene, Diagnostics *diagnostics)
 {
     *scene = createScene();
@@ -171,7 +181,7 @@ Status loadScene(const char *path, Scene *scene, Diagnostics *diagnostics)
     Status status = readWholeFile(path, LARGEST_FILE, &text, &length);
     if (!statusIsOk(&status))
         return status;
-    status = loadSceneFromText(text, length, scene, diagnostics);
+    status = loadText(path, text, length, scene, diagnostics);
     free(text);
     return status;
 }

@@ -18,7 +18,7 @@
  * needs no freeing. */
 Status loadScene(const char *path, Scene *scene, Diagnostics *diagnostics);
 
-/* The same from text in memory; name stands for the file in messages. */
+/* The same from text in memory; the files that it names are relative to the working folder. */
 Status loadSceneFromText(const char *text, size_t length, Scene *scene, Diagnostics *diagnostics);
 
 /* Append the JSON Schema (draft-07) of the format. */

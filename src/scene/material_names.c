@@ -59,44 +59,48 @@ void readNamedMaterials(SceneReader *reader, const FormatKey *key, const YamlNod
     }
 }
 
-static void reportUndefined(SceneReader *reader, const MaterialUse *use)
+/* The defined name that is nearest to the undefined one, or NULL. Each name is looked for once. */
+static const char *nearestMaterial(SceneReader *reader, size_t number, size_t *searches)
 {
     enum {
-        MOST_SEARCHES = 20 /* a file with more such errors gets no suggestions for the rest */
+        MOST_SEARCHES = 20 /* a file with more undefined names gets no suggestions for the rest */
     };
-    const Name *name = &reader->materialNames.names[use->name];
-    Suggestion suggestion = {.word = name->text, .length = name->length};
-    bool anyDefined = false;
-    if (reader->diagnostics->errors < MOST_SEARCHES)
-        for (size_t i = 0; i < reader->materialNames.count; i++) {
-            if (!reader->materials[i].defined)
-                continue;
-            anyDefined = true;
-            tryCandidate(&suggestion, reader->materialNames.names[i].text);
-        }
-    Text hint = {0};
-    if (suggestion.best != NULL)
-        textAppendFormat(&hint, "did you mean '%s'?",
-                         quoteBytes(suggestion.best, strlen(suggestion.best)).text);
-    else if (anyDefined)
-        textAppend(&hint, "define it in the section 'materials'");
-    else
-        textAppend(
-            &hint,
-            "define it in a section 'materials', or write it in place: material: {diffuse: [1, 0, 0]}");
-    reportError(reader, use->place, textString(&hint), "there is no material '%s'",
-                quoteBytes(name->text, name->length).text);
-    textFree(&hint);
+    NamedMaterial *named = &reader->materials[number];
+    if (!named->isSearched && *searches < MOST_SEARCHES) {
+        const Name *name = &reader->materialNames.names[number];
+        Suggestion suggestion = {.word = name->text, .length = name->length};
+        for (size_t i = 0; i < reader->materialNames.count; i++)
+            if (reader->materials[i].defined)
+                tryCandidate(&suggestion, reader->materialNames.names[i].text);
+        named->suggestion = suggestion.best;
+        ++*searches;
+    }
+    named->isSearched = true;
+    return named->suggestion;
 }
 
-void resolveMaterials(SceneReader *reader)
+void reportUndefinedMaterials(SceneReader *reader)
 {
+    bool anyDefined = false;
+    for (size_t i = 0; i < reader->materialNames.count && !anyDefined; i++)
+        anyDefined = reader->materials[i].defined;
+    size_t searches = 0;
     for (size_t i = 0; i < reader->useCount; i++) {
         const MaterialUse *use = &reader->uses[i];
-        const NamedMaterial *named = &reader->materials[use->name];
-        if (named->defined)
-            reader->scene->objects[use->object].material = named->material;
+        if (use->isInherited || reader->materials[use->name].defined)
+            continue;
+        const Name *name = &reader->materialNames.names[use->name];
+        const char *nearest = nearestMaterial(reader, use->name, &searches);
+        Text hint = {0};
+        if (nearest != NULL)
+            textAppendFormat(&hint, "did you mean '%s'?", quoteBytes(nearest, strlen(nearest)).text);
+        else if (anyDefined)
+            textAppend(&hint, "define it in the section 'materials'");
         else
-            reportUndefined(reader, use);
+            textAppend(&hint, "define it in a section 'materials', or write it in place: material: "
+                              "{diffuse: [1, 0, 0]}");
+        reportError(reader, use->place, textString(&hint), "there is no material '%s'",
+                    quoteBytes(name->text, name->length).text);
+        textFree(&hint);
     }
 }

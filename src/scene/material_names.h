@@ -14,7 +14,7 @@ size_t materialNumber(SceneReader *reader, const char *text, size_t length);
 /* Read the section of the key: names with a mapping behind each. */
 void readNamedMaterials(SceneReader *reader, const FormatKey *key, const YamlNode *node);
 
-/* Give the objects the materials they name, and report the names that nothing defines. */
-void resolveMaterials(SceneReader *reader);
+/* When all was read: report the names in use that nothing defines. */
+void reportUndefinedMaterials(SceneReader *reader);
 
 #endif

@@ -53,6 +53,8 @@ void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, con
         textAppend(&hint, "put a space behind the ':'");
     else if (key->type == FORMAT_KINDS && value->kind == NODE_MAPPING)
         textAppendFormat(&hint, "begin each %s with '- '", key->kinds->noun);
+    else if (key->type == FORMAT_STEPS && value->kind == NODE_MAPPING)
+        textAppendFormat(&hint, "begin each %s with '- '", key->mapping->name);
     reportError(reader, place, hint.length > 0 ? hint.data : NULL, "%s", textString(&message));
     textFree(&message);
     textFree(&hint);
@@ -149,22 +151,26 @@ static bool readNumber(SceneReader *reader, const FormatKey *key, const char *co
     return right;
 }
 
-/* Read three numbers; each that is wrong is reported. */
-static bool readThree(SceneReader *reader, const FormatKey *key, const char *const components[3],
-                      const FormatRange *range, double largest, Place place, const YamlNode *list,
-                      double numbers[3])
+/* Read as many numbers as there are components; each that is wrong is reported. */
+static bool readNumbers(SceneReader *reader, const FormatKey *key, const char *const *components,
+                        size_t count, const FormatRange *range, double largest, Place place,
+                        const YamlNode *list, double *numbers)
 {
-    if (list->count != 3) {
+    if (list->count != count) {
         bool noCommas =
             list->count == 1 && list->first->kind == NODE_SCALAR && strchr(list->first->text, ' ') != NULL;
+        Text names = {0};
+        for (size_t i = 0; i < count; i++)
+            textAppendFormat(&names, "%s%s", i > 0 ? ", " : "", components[i]);
         reportError(reader, place, noCommas ? "put commas between the numbers" : NULL,
-                    "'%s' needs 3 numbers [%s, %s, %s], but has %zu", key->name, components[0], components[1],
-                    components[2], list->count);
+                    "'%s' needs %zu numbers [%s], but has %zu", key->name, count, textString(&names),
+                    list->count);
+        textFree(&names);
         return false;
     }
     bool right = true;
     const YamlNode *item = list->first;
-    for (int i = 0; i < 3; i++, item = item->next) {
+    for (size_t i = 0; i < count; i++, item = item->next) {
         const YamlNode *value = resolveAlias(item);
         right = value != NULL &&
                 readNumber(reader, key, components[i], range, largest, item->place, value, &numbers[i]) &&
@@ -182,7 +188,7 @@ static bool readVector(SceneReader *reader, const FormatKey *key, Place place, c
         return false;
     }
     double v[3];
-    if (!readThree(reader, key, components, &key->range, DBL_MAX, place, value, v))
+    if (!readNumbers(reader, key, components, 3, &key->range, DBL_MAX, place, value, v))
         return false;
     if (key->type == FORMAT_DIRECTION && v[0] == 0 && v[1] == 0 && v[2] == 0) {
         reportError(reader, place, "at least one of the three numbers must not be 0",
@@ -193,13 +199,66 @@ static bool readVector(SceneReader *reader, const FormatKey *key, Place place, c
     return true;
 }
 
+/* Read factors that are not 0: three, or one for all. */
+static bool readFactors(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                        Vector3D *factors)
+{
+    static const char *const components[3] = {"x", "y", "z"};
+    double f[3];
+    if (value->kind == NODE_LIST) {
+        if (!readNumbers(reader, key, components, 3, &anyRange, DBL_MAX, place, value, f))
+            return false;
+    } else if (value->kind == NODE_SCALAR) {
+        if (!readNumber(reader, key, NULL, &anyRange, DBL_MAX, place, value, &f[0]))
+            return false;
+        f[1] = f[2] = f[0];
+    } else {
+        reportWrongType(reader, key, place, value);
+        return false;
+    }
+    if (f[0] == 0 || f[1] == 0 || f[2] == 0) {
+        reportError(reader, place, "use 1 for what stays as it is",
+                    "'%s' must not be 0: that would squeeze the object flat", key->name);
+        return false;
+    }
+    *factors = createVector(f[0], f[1], f[2]);
+    return true;
+}
+
+bool readSphereRow(SceneReader *reader, const FormatKey *key, const YamlNode *rowNode, double numbers[4])
+{
+    static const char *const components[4] = {"x", "y", "z", "r"};
+    const YamlNode *row = resolveAlias(rowNode);
+    if (row == NULL)
+        return false;
+    if (row->kind != NODE_LIST) {
+        Text what = {0};
+        textAppendNode(&what, row);
+        reportError(reader, rowNode->place, "write it as [x, y, z, r]",
+                    "a sphere of '%s' must be a list of 4 numbers [x, y, z, r], but is %s", key->name,
+                    textString(&what));
+        textFree(&what);
+        return false;
+    }
+    if (!readNumbers(reader, key, components, 4, &anyRange, DBL_MAX, rowNode->place, row, numbers))
+        return false;
+    if (!isInFormatRange(&key->range, numbers[3])) {
+        /* Report it at its own place. */
+        const YamlNode *radius = row->first->next->next->next;
+        double unused;
+        readNumber(reader, key, "r", &key->range, DBL_MAX, radius->place, resolveAlias(radius), &unused);
+        return false;
+    }
+    return true;
+}
+
 static bool readColor(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
                       Color3f *color)
 {
     static const char *const components[3] = {"r", "g", "b"};
     double c[3];
     if (value->kind == NODE_LIST) {
-        if (!readThree(reader, key, components, &colorRange, (double)FLT_MAX, place, value, c))
+        if (!readNumbers(reader, key, components, 3, &colorRange, (double)FLT_MAX, place, value, c))
             return false;
     } else {
         ScalarValue scalar = {.type = SCALAR_TEXT};
@@ -276,10 +335,28 @@ static bool readChoice(SceneReader *reader, const FormatKey *key, Place place, c
     return false;
 }
 
+static bool readFile(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                     const char **path)
+{
+    ScalarValue scalar = {.type = SCALAR_NULL};
+    if (value->kind == NODE_SCALAR)
+        scalar = readScalar(value->text, value->count, value->plain);
+    if (scalar.type != SCALAR_TEXT || value->count == 0) {
+        reportWrongType(reader, key, place, value);
+        return false;
+    }
+    if (strlen(value->text) != value->count) {
+        reportError(reader, place, NULL, "the path in '%s' holds a zero byte, which no path can", key->name);
+        return false;
+    }
+    *path = value->text;
+    return true;
+}
+
 /* ---- One value ---- */
 
-bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
-                     void *target)
+static bool readOne(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                    void *target)
 {
     double number;
     switch (key->type) {
@@ -288,6 +365,10 @@ bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, con
     case FORMAT_FLOAT:
         if (!readNumber(reader, key, NULL, &key->range, (double)FLT_MAX, place, value, &number))
             return false;
+        if (!isInFormatRange(&key->range, (double)(float)number)) {
+            reportError(reader, place, NULL, "'%s' is too small: it would become 0", key->name);
+            return false;
+        }
         *(float *)target = (float)number;
         return true;
     case FORMAT_INTEGER:
@@ -304,15 +385,57 @@ bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, con
     case FORMAT_POINT:
     case FORMAT_DIRECTION:
         return readVector(reader, key, place, value, target);
+    case FORMAT_FACTORS:
+        return readFactors(reader, key, place, value, target);
     case FORMAT_COLOR:
         return readColor(reader, key, place, value, target);
+    case FORMAT_FILE:
+        return readFile(reader, key, place, value, target);
+    case FORMAT_SPHERES:
     case FORMAT_MATERIAL:
     case FORMAT_MAPPING:
+    case FORMAT_STEPS:
     case FORMAT_NAMED:
     case FORMAT_KINDS:
         break;
     }
     return false;
+}
+
+/* The bytes of one value of a key that has a count. */
+static size_t sizeOfOne(const FormatKey *key)
+{
+    return key->type == FORMAT_INTEGER ? sizeof(int)
+           : key->type == FORMAT_COLOR ? sizeof(Color3f)
+                                       : sizeof(Vector3D);
+}
+
+bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
+                     void *target)
+{
+    if (key->count == 0)
+        return readOne(reader, key, place, value, target);
+    if (value->kind != NODE_LIST) {
+        reportWrongType(reader, key, place, value);
+        return false;
+    }
+    if (value->count != key->count) {
+        Text expected = {0};
+        textAppendExpectation(&expected, key);
+        reportError(reader, place, NULL, "'%s' must be %s, but has %zu", key->name, textString(&expected),
+                    value->count);
+        textFree(&expected);
+        return false;
+    }
+    FormatKey one = *key;
+    one.count = 0;
+    bool right = true;
+    char *next = target;
+    for (const YamlNode *item = value->first; item != NULL; item = item->next, next += sizeOfOne(key)) {
+        const YamlNode *itemValue = resolveAlias(item);
+        right = itemValue != NULL && readOne(reader, &one, item->place, itemValue, next) && right;
+    }
+    return right;
 }
 
 /* The numbers of a default: one, or those of a list [a, b, c]. */
@@ -332,6 +455,10 @@ void storeDefault(const FormatKey *key, void *values)
     void *target = (char *)values + key->offset;
     if (key->type == FORMAT_MATERIAL) {
         *(Material *)target = defaultMaterial();
+        return;
+    }
+    if (key->type == FORMAT_STEPS) {
+        *(Matrix *)target = identityMatrix();
         return;
     }
     if (key->fallback == NULL) {
@@ -360,6 +487,7 @@ void storeDefault(const FormatKey *key, void *values)
         break;
     case FORMAT_POINT:
     case FORMAT_DIRECTION:
+    case FORMAT_FACTORS:
         readDefaultNumbers(key->fallback, n);
         *(Vector3D *)target = createVector(n[0], n[1], n[2]);
         break;
@@ -367,8 +495,11 @@ void storeDefault(const FormatKey *key, void *values)
         readDefaultNumbers(key->fallback, n);
         *(Color3f *)target = createColor((float)n[0], (float)n[1], (float)n[2]);
         break;
+    case FORMAT_FILE:
+    case FORMAT_SPHERES:
     case FORMAT_MATERIAL:
     case FORMAT_MAPPING:
+    case FORMAT_STEPS:
     case FORMAT_NAMED:
     case FORMAT_KINDS:
         break;

@@ -8,10 +8,13 @@
 
 #include "scene/reader.h"
 
-/* Read a number, a truth, a word, a vector or a colour; false when it is wrong, which is reported at
- * place. */
+/* Read a number, a truth, a word, a vector, a colour or a path, or as many as the key's count says; false
+ * when it is wrong, which is reported at place. */
 bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,
                      void *target);
+
+/* Read one sphere [x, y, z, r] of a list of them; key: of the list. */
+bool readSphereRow(SceneReader *reader, const FormatKey *key, const YamlNode *row, double numbers[4]);
 
 /* Store the key's default among the values of its mapping. */
 void storeDefault(const FormatKey *key, void *values);

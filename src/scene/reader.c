@@ -11,10 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-SceneReader beginReader(Scene *scene, SourceText *source, Diagnostics *diagnostics)
+SceneReader beginReader(Scene *scene, SourceText *source, Diagnostics *diagnostics, SceneFiles *files)
 {
-    return (SceneReader){
-        .scene = scene, .source = source, .diagnostics = diagnostics, .pendingUse = {.name = NAME_NONE}};
+    return (SceneReader){.scene = scene,
+                         .source = source,
+                         .diagnostics = diagnostics,
+                         .files = files,
+                         .pendingUse = {.name = NAME_NONE}};
 }
 
 void freeReader(SceneReader *reader)
@@ -22,7 +25,13 @@ void freeReader(SceneReader *reader)
     freeNameTable(&reader->materialNames);
     free(reader->materials);
     free(reader->uses);
+    free(reader->solidPlaces);
     free(reader->lightPlaces);
+}
+
+bool mustStop(const SceneReader *reader)
+{
+    return reader->outOfMemory || reader->interrupted;
 }
 
 void reportError(SceneReader *reader, Place place, const char *hint, const char *format, ...)
@@ -33,6 +42,18 @@ void reportError(SceneReader *reader, Place place, const char *hint, const char 
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     addDiagnostic(reader->diagnostics, reader->source, SEVERITY_ERROR, place, hint, message);
+}
+
+void reportKeyError(SceneReader *reader, GivenKeys *given, const char *key, const char *hint,
+                    const char *format, ...)
+{
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    reportError(reader, placeOfKey(given, key), hint, "%s", message);
+    given->wrong[findFormatKey(given->format, key, strlen(key))] = true;
 }
 
 void *makeReaderRoom(SceneReader *reader, void *array, size_t count, size_t *capacity, size_t itemSize)
@@ -61,6 +82,14 @@ bool isUsable(const GivenKeys *given, const char *name)
     size_t number = findFormatKey(given->format, name, strlen(name));
     bool isThere = given->keys[number] != NULL || !isRequired(formatKey(given->format, number));
     return isThere && !given->wrong[number];
+}
+
+bool areAllUsable(const GivenKeys *given)
+{
+    for (size_t i = 0; i < formatKeyCount(given->format); i++)
+        if (given->wrong[i] || (given->keys[i] == NULL && isRequired(formatKey(given->format, i))))
+            return false;
+    return true;
 }
 
 Place placeOfKey(const GivenKeys *given, const char *name)
@@ -172,12 +201,21 @@ const FormatKey *acceptKey(SceneReader *reader, GivenKeys *given, const YamlNode
     if (*number == formatKeyCount(given->format)) {
         /* The key that was probably meant is not missing too. */
         size_t meant = reportUnknownKey(reader, given->format, word);
+        given->anyUnknown = true;
         if (meant < formatKeyCount(given->format))
             given->wrong[meant] = true;
         return NULL;
     }
     if (given->keys[*number] != NULL) {
         reportDuplicate(reader, keyNode->place, word, given->keys[*number]->place.line);
+        return NULL;
+    }
+    for (size_t i = 0; given->format->oneKey != NULL && i < formatKeyCount(given->format); i++) {
+        if (given->keys[i] == NULL)
+            continue;
+        reportError(reader, keyNode->place, given->format->oneKey,
+                    "this %s has a key already, '%s' in line %d, and can have only one", given->format->name,
+                    formatKey(given->format, i)->name, given->keys[i]->place.line);
         return NULL;
     }
     given->keys[*number] = keyNode;
@@ -213,9 +251,15 @@ void readMapping(SceneReader *reader, const FormatMapping *format, Place place, 
     beginMapping(format, place, &given, values);
     for (const YamlNode *keyNode = node->first; keyNode != NULL; keyNode = keyNode->next->next) {
         size_t number;
-        if (acceptKey(reader, &given, keyNode, &number) != NULL)
+        const FormatKey *key = acceptKey(reader, &given, keyNode, &number);
+        if (key != NULL && key->type != FORMAT_KINDS)
             readValue(reader, &given, number, keyNode->next, values);
     }
+    if (format->enter != NULL)
+        format->enter(reader, &given, values);
+    for (size_t i = 0; i < formatKeyCount(format); i++)
+        if (given.keys[i] != NULL && formatKey(format, i)->type == FORMAT_KINDS)
+            readValue(reader, &given, i, given.keys[i]->next, values);
     endMapping(reader, &given, values, target);
 }
 
@@ -238,13 +282,48 @@ static bool readMaterial(SceneReader *reader, const FormatKey *key, Place place,
     return name != NAME_NONE;
 }
 
+/* Read a list of steps, each a mapping; all have the same target. */
+static bool readSteps(SceneReader *reader, const FormatKey *key, const YamlNode *list, void *target)
+{
+    size_t errors = reader->diagnostics->errors;
+    for (const YamlNode *itemNode = list->first; itemNode != NULL; itemNode = itemNode->next) {
+        const YamlNode *item = resolveAlias(itemNode);
+        if (item == NULL)
+            continue;
+        if (item->kind == NODE_MAPPING) {
+            readMapping(reader, key->mapping, itemNode->place, item, target);
+            continue;
+        }
+        Text what = {0}, hint = {0};
+        textAppendNode(&what, item);
+        textAppendFormat(&hint, "write it as - %s: ...", formatKey(key->mapping, 0)->name);
+        reportError(reader, itemNode->place, textString(&hint),
+                    "a %s of '%s' must be a mapping with one key, but is %s", key->mapping->name, key->name,
+                    textString(&what));
+        textFree(&what);
+        textFree(&hint);
+    }
+    return reader->diagnostics->errors == errors;
+}
+
+/* Read a list of kinds that is a tree already. */
+static void readKinds(SceneReader *reader, const FormatKey *key, const char *owner, Place place,
+                      const YamlNode *list)
+{
+    for (const YamlNode *item = list->first; item != NULL && !mustStop(reader); item = item->next)
+        readKindItem(reader, key->kinds, item);
+    if (list->count < key->least)
+        reportError(reader, place, NULL, "'%s' of a %s needs at least %zu %s%s, but has %zu", key->name,
+                    owner, key->least, key->kinds->noun, key->least > 1 ? "s" : "", list->count);
+}
+
 /* Whether the node is what the key's type is read from; what is not is reported. */
 static bool hasRightKind(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value)
 {
     bool right = true;
     if (key->type == FORMAT_MAPPING || key->type == FORMAT_NAMED)
         right = value->kind == NODE_MAPPING;
-    else if (key->type == FORMAT_KINDS)
+    else if (key->type == FORMAT_KINDS || key->type == FORMAT_STEPS || key->type == FORMAT_SPHERES)
         right = value->kind == NODE_LIST;
     if (!right)
         reportWrongType(reader, key, place, value);
@@ -280,9 +359,14 @@ void readValue(SceneReader *reader, GivenKeys *given, size_t number, const YamlN
     case FORMAT_MATERIAL:
         right = readMaterial(reader, key, place, value, target);
         break;
+    case FORMAT_STEPS:
+        right = readSteps(reader, key, value, target);
+        break;
+    case FORMAT_SPHERES:
+        *(const YamlNode **)target = value;
+        break;
     case FORMAT_KINDS:
-        for (const YamlNode *item = value->first; item != NULL; item = item->next)
-            readKindItem(reader, key->kinds, item);
+        readKinds(reader, key, given->format->name, place, value);
         break;
     case FORMAT_NUMBER:
     case FORMAT_FLOAT:
@@ -291,16 +375,43 @@ void readValue(SceneReader *reader, GivenKeys *given, size_t number, const YamlN
     case FORMAT_CHOICE:
     case FORMAT_POINT:
     case FORMAT_DIRECTION:
-    case FORMAT_COLOR:
+    case FORMAT_FACTORS:
+    case FORMAT_FILE:
         right = readSimpleValue(reader, key, place, value, target);
+        break;
+    case FORMAT_COLOR:
+        if (key->mapping != NULL && value->kind == NODE_MAPPING)
+            readMapping(reader, key->mapping, given->keys[number]->place, value, target);
+        else
+            right = readSimpleValue(reader, key, place, value, target);
         break;
     }
     given->wrong[number] = given->wrong[number] || !right;
 }
 
+/* A mapping of which one key must be there has none, or a wrong one, which was reported. */
+static void reportNoKey(SceneReader *reader, const GivenKeys *given)
+{
+    Text names = {0};
+    for (size_t i = 0; i < formatKeyCount(given->format); i++)
+        textAppendFormat(&names, "%s%s",
+                         i == 0                                   ? ""
+                         : i + 1 == formatKeyCount(given->format) ? " or "
+                                                                  : ", ",
+                         formatKey(given->format, i)->name);
+    reportError(reader, given->place, NULL, "this %s is empty; it must have one key: %s", given->format->name,
+                textString(&names));
+    textFree(&names);
+}
+
 void endMapping(SceneReader *reader, GivenKeys *given, void *values, void *target)
 {
     const FormatMapping *format = given->format;
+    bool anyGiven = given->anyUnknown;
+    for (size_t i = 0; i < formatKeyCount(format); i++)
+        anyGiven = anyGiven || given->keys[i] != NULL;
+    if (format->oneKey != NULL && !anyGiven)
+        reportNoKey(reader, given);
     for (size_t i = 0; i < formatKeyCount(format); i++) {
         const FormatKey *key = formatKey(format, i);
         if (!isRequired(key) || given->keys[i] != NULL || given->wrong[i])
@@ -379,24 +490,6 @@ void readKindItem(SceneReader *reader, const FormatKinds *kinds, const YamlNode 
     }
     reader->pendingUse.name = NAME_NONE;
     readMapping(reader, kind, keyNode->place, value, NULL);
-}
-
-void addReadObject(SceneReader *reader, const GivenKeys *given, Object object)
-{
-    object.line = given->place.line;
-    if (!addObjectToScene(reader->scene, object)) {
-        reader->outOfMemory = true;
-        return;
-    }
-    if (reader->pendingUse.name == NAME_NONE)
-        return;
-    MaterialUse *uses =
-        makeReaderRoom(reader, reader->uses, reader->useCount, &reader->useCapacity, sizeof *uses);
-    if (uses == NULL)
-        return;
-    reader->uses = uses;
-    reader->pendingUse.object = reader->scene->objectCount - 1;
-    uses[reader->useCount++] = reader->pendingUse;
 }
 
 void addReadLight(SceneReader *reader, const GivenKeys *given, Light light)

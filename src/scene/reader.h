@@ -12,6 +12,8 @@
 #include "scene/diagnostics.h"
 #include "scene/format_table.h"
 #include "scene/name_table.h"
+#include "scene/object_scopes.h"
+#include "scene/scene_files.h"
 #include "scene/source_text.h"
 #include "scene/yaml_tree.h"
 
@@ -22,28 +24,29 @@
 typedef struct NamedMaterial {
     Material material;
     bool defined;
-    int line; /* of the definition */
+    int line;               /* of the definition */
+    bool isSearched;        /* nothing defines it, and the nearest name was looked for: */
+    const char *suggestion; /* or NULL */
 } NamedMaterial;
-
-/* An object that names its material: materials may be defined after their use. */
-typedef struct MaterialUse {
-    size_t object; /* its number in the scene */
-    size_t name;
-    Place place;
-} MaterialUse;
 
 typedef struct SceneReader {
     Scene *scene;
     SourceText *source;
     Diagnostics *diagnostics;
-    bool outOfMemory;
+    SceneFiles *files;
+    bool outOfMemory, interrupted;
 
     NameTable materialNames;
     NamedMaterial *materials; /* by number of the name */
     size_t materialCapacity;
-    MaterialUse *uses;
+    MaterialUse *uses; /* in the order of their leaves */
     size_t useCount, useCapacity;
     MaterialUse pendingUse; /* of the object being read; name is NAME_NONE when it names none */
+
+    ObjectScope *scope; /* the innermost group and the like being read, or NULL */
+    size_t leafCount;
+    Place *solidPlaces; /* of the solids that are no parts of others */
+    size_t solidCount, solidPlaceCapacity;
 
     /* Where things are, for the warnings. */
     Place positionPlace, viewPlace; /* of the camera; line 0: it is not in the file */
@@ -58,9 +61,10 @@ typedef struct GivenKeys {
     const YamlNode *keys[FORMAT_MAX_KEYS]; /* by the key's number, or NULL */
     Place places[FORMAT_MAX_KEYS];         /* of the values */
     bool wrong[FORMAT_MAX_KEYS];           /* it was reported */
+    bool anyUnknown;                       /* another key was, too */
 } GivenKeys;
 
-SceneReader beginReader(Scene *scene, SourceText *source, Diagnostics *diagnostics);
+SceneReader beginReader(Scene *scene, SourceText *source, Diagnostics *diagnostics, SceneFiles *files);
 void freeReader(SceneReader *reader);
 
 void beginMapping(const FormatMapping *format, Place place, GivenKeys *given, void *values);
@@ -92,11 +96,18 @@ void reportDuplicate(SceneReader *reader, Place place, const YamlNode *word, int
 /* The array with room for one item more; NULL when memory runs out, which is noted. */
 void *makeReaderRoom(SceneReader *reader, void *array, size_t count, size_t *capacity, size_t itemSize);
 
+/* Whether reading must end at once: memory ran out, or the user asked. */
+bool mustStop(const SceneReader *reader);
+
 /* ---- For finish functions ---- */
 
 /* Report an error; hint may be NULL. */
 void reportError(SceneReader *reader, Place place, const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+/* The same at the value of a key, which counts as wrong from then on. */
+void reportKeyError(SceneReader *reader, GivenKeys *given, const char *key, const char *hint,
+                    const char *format, ...) __attribute__((format(printf, 5, 6)));
 
 /* Whether the key is in the file with a value that is right. */
 bool isGiven(const GivenKeys *given, const char *name);
@@ -104,11 +115,13 @@ bool isGiven(const GivenKeys *given, const char *name);
 /* Whether the key has a usable value: given and right, or its default. */
 bool isUsable(const GivenKeys *given, const char *name);
 
+/* Whether all keys of the mapping have usable values. */
+bool areAllUsable(const GivenKeys *given);
+
 /* The place of the key's value; of the whole mapping when it is not given. */
 Place placeOfKey(const GivenKeys *given, const char *name);
 
-/* Add what was built; the object's material is the one that was named, as soon as that is known. */
-void addReadObject(SceneReader *reader, const GivenKeys *given, Object object);
+/* Add a light that was built. */
 void addReadLight(SceneReader *reader, const GivenKeys *given, Light light);
 
 #endif

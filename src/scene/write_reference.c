@@ -30,6 +30,7 @@ static const char INTRODUCTION[] =
     "- An item of a list of lights or objects has one key, its kind; all about it is in the mapping behind\n"
     "  that key.\n"
     "- Numbers and words are those of YAML 1.2: `yes` is a text, `0o17` is fifteen, `1_000` is a text.\n"
+    "- Paths of files are relative to the folder of the scene file.\n"
     "- Anchors (`&name`) and aliases (`*name`) work; the merge key `<<` and tags (`!name`) do not.\n"
     "- What is not on this page is an error, never a guess. `eclairage check SCENE.yaml` reports all errors\n"
     "  of a file with line and column.\n";
@@ -53,35 +54,37 @@ static void appendDefault(Text *text, const FormatKey *key)
 
 static void appendValue(Text *text, const FormatKey *key)
 {
-    switch (key->type) {
-    case FORMAT_POINT:
-    case FORMAT_DIRECTION:
+    if (key->count == 0 && (key->type == FORMAT_POINT || key->type == FORMAT_DIRECTION)) {
         textAppend(text, key->type == FORMAT_POINT ? "`[x, y, z]`" : "`[x, y, z]`, not all 0");
-        break;
-    case FORMAT_COLOR:
+    } else if (key->count == 0 && key->type == FORMAT_COLOR) {
         textAppend(text, "a colour");
-        break;
-    case FORMAT_MATERIAL:
+    } else if (key->type == FORMAT_MATERIAL) {
         textAppend(text, "a name or a mapping");
-        break;
-    case FORMAT_NUMBER:
-    case FORMAT_FLOAT:
-    case FORMAT_INTEGER:
-    case FORMAT_BOOL:
-    case FORMAT_CHOICE:
-    case FORMAT_MAPPING:
-    case FORMAT_NAMED:
-    case FORMAT_KINDS:
+    } else if (key->type == FORMAT_MAPPING) {
+        textAppend(text, "a mapping `");
+        textAppendShape(text, key->mapping);
+        textAppend(text, "`");
+    } else if (key->type == FORMAT_STEPS) {
+        textAppendFormat(text, "a list of %ss", key->mapping->name);
+    } else if (key->type == FORMAT_KINDS) {
+        textAppendFormat(text, "a list of %ss", key->kinds->noun);
+        if (key->least > 1)
+            textAppendFormat(text, ", at least %zu", key->least);
+    } else {
         textAppendExpectation(text, key);
-        break;
     }
 }
 
-static void appendKeys(Text *text, const FormatMapping *mapping)
+static void appendSentence(Text *text, const char *sentence)
+{
+    textAppendFormat(text, "%c%s.", sentence[0] - 'a' + 'A', sentence + 1);
+}
+
+static void appendRows(Text *text, const FormatKey *keys, size_t count)
 {
     textAppend(text, "| key | value | default | meaning |\n|---|---|---|---|\n");
-    for (size_t i = 0; i < formatKeyCount(mapping); i++) {
-        const FormatKey *key = formatKey(mapping, i);
+    for (size_t i = 0; i < count; i++) {
+        const FormatKey *key = &keys[i];
         textAppendFormat(text, "| `%s` | ", key->name);
         appendValue(text, key);
         textAppend(text, " | ");
@@ -96,41 +99,109 @@ static void appendKeys(Text *text, const FormatMapping *mapping)
     }
 }
 
+/* The keys of a mapping and, below, those of the mappings in it that are not described elsewhere. */
+static void appendKeys(Text *text, const FormatMapping *mapping)
+{
+    if (mapping->oneKey != NULL)
+        textAppendFormat(text, "A %s written as a mapping has one key:\n\n", mapping->name);
+    appendRows(text, mapping->keys, mapping->keyCount);
+    const FormatKey *common = NULL;
+    size_t commonCount = 0;
+    for (size_t i = 0; i < mapping->keyCount; i++) {
+        const FormatKey *key = &mapping->keys[i];
+        if (key->type != FORMAT_MAPPING || key->mapping->isShared)
+            continue;
+        textAppendFormat(text, "\n### `%s`\n\n", key->name);
+        appendSentence(text, key->mapping->help);
+        textAppend(text, "\n\n");
+        appendRows(text, key->mapping->keys, key->mapping->keyCount);
+        common = key->mapping->common;
+        commonCount = key->mapping->commonCount;
+    }
+    if (common != NULL) {
+        textAppendFormat(text, "\n### Every %s\n\n", mapping->name);
+        appendRows(text, common, commonCount);
+    }
+}
+
+static void appendKinds(Text *text, const FormatKinds *kinds)
+{
+    for (size_t i = 0; i < kinds->count; i++) {
+        const FormatMapping *kind = kinds->kinds[i];
+        textAppendFormat(text, "\n### `%s`\n\n", kind->name);
+        appendSentence(text, kind->help);
+        textAppend(text, "\n\n");
+        appendRows(text, kind->keys, kind->keyCount);
+    }
+    if (kinds->kinds[0]->common != NULL) {
+        textAppendFormat(text, "\n### Every %s\n\nThese keys go with every kind.\n\n", kinds->noun);
+        appendRows(text, kinds->kinds[0]->common, kinds->kinds[0]->commonCount);
+    }
+}
+
 static void appendSection(Text *text, const FormatKey *section)
 {
     textAppendFormat(text, "\n## `%s`\n\n", section->name);
-    textAppendFormat(text, "%c%s.", section->help[0] - 'a' + 'A', section->help + 1);
-    switch (section->type) {
-    case FORMAT_MAPPING:
+    appendSentence(text, section->help);
+    if (section->type == FORMAT_MAPPING) {
+        if (section->otherwise != NULL)
+            textAppendFormat(text, " Left out: %s.", section->otherwise);
         textAppend(text, "\n\n");
         appendKeys(text, section->mapping);
-        break;
-    case FORMAT_NAMED:
+    } else if (section->type == FORMAT_NAMED) {
         textAppendFormat(text, " Each name has a %s behind it; names are free.\n\n", section->mapping->name);
         appendKeys(text, section->mapping);
-        break;
-    case FORMAT_KINDS:
+    } else if (section->type == FORMAT_KINDS) {
         textAppendFormat(text, " A list; each item is one %s.\n", section->kinds->noun);
-        for (size_t i = 0; i < section->kinds->count; i++) {
-            const FormatMapping *kind = section->kinds->kinds[i];
-            textAppendFormat(text, "\n### `%s`\n\n%c%s.\n\n", kind->name, kind->help[0] - 'a' + 'A',
-                             kind->help + 1);
-            appendKeys(text, kind);
-        }
-        break;
-    case FORMAT_NUMBER:
-    case FORMAT_FLOAT:
-    case FORMAT_INTEGER:
-    case FORMAT_BOOL:
-    case FORMAT_CHOICE:
-    case FORMAT_POINT:
-    case FORMAT_DIRECTION:
-    case FORMAT_COLOR:
-    case FORMAT_MATERIAL:
+        appendKinds(text, section->kinds);
+    } else {
         textAppend(text, " It is ");
         textAppendExpectation(text, section);
         textAppendFormat(text, "; left out: `%s`.\n", section->fallback);
-        break;
+        if (section->mapping != NULL) {
+            textAppend(text, "\n");
+            appendKeys(text, section->mapping);
+        }
+    }
+}
+
+/* ---- What several keys refer to ---- */
+
+enum {
+    MOST_MAPPINGS = 64
+};
+
+/* The mappings that were come by. */
+typedef struct Visited {
+    const FormatMapping *mappings[MOST_MAPPINGS];
+    size_t count;
+} Visited;
+
+/* Describe the shared mappings that the keys of this one lead to, each once; that of names has its section.
+ */
+static void appendShared(Text *text, Visited *visited, const FormatMapping *mapping)
+{
+    for (size_t i = 0; i < visited->count; i++)
+        if (visited->mappings[i] == mapping)
+            return;
+    if (visited->count == MOST_MAPPINGS)
+        return;
+    visited->mappings[visited->count++] = mapping;
+    for (size_t i = 0; i < formatKeyCount(mapping); i++) {
+        const FormatKey *key = formatKey(mapping, i);
+        for (size_t j = 0; key->kinds != NULL && j < key->kinds->count; j++)
+            appendShared(text, visited, key->kinds->kinds[j]);
+        if (key->mapping == NULL)
+            continue;
+        size_t before = visited->count;
+        appendShared(text, visited, key->mapping);
+        bool isNew = visited->count > before;
+        if (!isNew || !key->mapping->isShared || (key->type != FORMAT_STEPS && key->type != FORMAT_MAPPING))
+            continue;
+        textAppendFormat(text, "\n## A %s\n\n", key->mapping->name);
+        appendSentence(text, key->mapping->help);
+        textAppend(text, "\n\n");
+        appendKeys(text, key->mapping);
     }
 }
 
@@ -139,4 +210,6 @@ void writeSceneReference(Text *text)
     textAppend(text, INTRODUCTION);
     for (size_t i = 0; i < formatKeyCount(&sceneFormat); i++)
         appendSection(text, formatKey(&sceneFormat, i));
+    Visited visited = {.count = 0};
+    appendShared(text, &visited, &sceneFormat);
 }

@@ -72,6 +72,21 @@ static void writeRange(JsonWriter *json, const FormatRange *range)
         jsonKeyNumber(json, range->high == LIMIT_INCLUDED ? "maximum" : "exclusiveMaximum", range->max);
 }
 
+/* A list of so many items, each as the caller writes it between these two. */
+static void beginItems(JsonWriter *json)
+{
+    jsonKeyString(json, "type", "array");
+    jsonKey(json, "items");
+    jsonObject(json);
+}
+
+static void endItems(JsonWriter *json, size_t count)
+{
+    jsonEndObject(json);
+    jsonKeyInteger(json, "minItems", (int64_t)count);
+    jsonKeyInteger(json, "maxItems", (int64_t)count);
+}
+
 /* A list of three numbers in a range. */
 static void writeThreeNumbers(JsonWriter *json, const FormatRange *range)
 {
@@ -97,10 +112,18 @@ static void writeNotZero(JsonWriter *json)
     jsonEndObject(json);
 }
 
-static void writeColor(JsonWriter *json)
+static void writeMapping(JsonWriter *json, const FormatMapping *mapping);
+
+/* Three numbers, one, or what mapping says where it is not NULL. */
+static void writeColor(JsonWriter *json, const FormatMapping *mapping)
 {
     jsonKey(json, "anyOf");
     jsonArray(json);
+    if (mapping != NULL) {
+        jsonObject(json);
+        writeMapping(json, mapping);
+        jsonEndObject(json);
+    }
     jsonInlineObject(json);
     writeThreeNumbers(json, &colorRange);
     jsonEndObject(json);
@@ -109,6 +132,53 @@ static void writeColor(JsonWriter *json)
     writeRange(json, &colorRange);
     jsonEndObject(json);
     jsonEndArray(json);
+}
+
+/* Three numbers or one, none of them 0. */
+static void writeFactors(JsonWriter *json)
+{
+    jsonKey(json, "anyOf");
+    jsonArray(json);
+    for (int isList = 1; isList >= 0; isList--) {
+        jsonInlineObject(json);
+        if (isList) {
+            jsonKeyString(json, "type", "array");
+            jsonKey(json, "items");
+            jsonInlineObject(json);
+        }
+        jsonKeyString(json, "type", "number");
+        jsonKey(json, "not");
+        jsonInlineObject(json);
+        jsonKeyInteger(json, "const", 0);
+        jsonEndObject(json);
+        if (isList) {
+            jsonEndObject(json);
+            jsonKeyInteger(json, "minItems", 3);
+            jsonKeyInteger(json, "maxItems", 3);
+        }
+        jsonEndObject(json);
+    }
+    jsonEndArray(json);
+}
+
+/* Four numbers, the last one in a range. */
+static void writeSpheres(JsonWriter *json, const FormatRange *range)
+{
+    jsonKeyString(json, "type", "array");
+    jsonKey(json, "items");
+    jsonObject(json);
+    jsonKeyString(json, "type", "array");
+    jsonKey(json, "items");
+    jsonArray(json);
+    for (int i = 0; i < 4; i++) {
+        jsonInlineObject(json);
+        jsonKeyString(json, "type", "number");
+        if (i == 3)
+            writeRange(json, range);
+        jsonEndObject(json);
+    }
+    jsonEndArray(json);
+    endItems(json, 4);
 }
 
 static void writeChoices(JsonWriter *json, const FormatKey *key)
@@ -129,6 +199,10 @@ static void writeMapping(JsonWriter *json, const FormatMapping *mapping)
 {
     jsonKeyString(json, "type", "object");
     jsonKeyBool(json, "additionalProperties", false);
+    if (mapping->oneKey != NULL) {
+        jsonKeyInteger(json, "minProperties", 1);
+        jsonKeyInteger(json, "maxProperties", 1);
+    }
     bool anyRequired = false;
     for (size_t i = 0; i < formatKeyCount(mapping); i++)
         anyRequired = anyRequired || isRequired(formatKey(mapping, i));
@@ -166,11 +240,8 @@ static void writeMapping(JsonWriter *json, const FormatMapping *mapping)
     jsonEndObject(json);
 }
 
-static void writeKeySchema(JsonWriter *json, const FormatKey *key)
+static void writeValue(JsonWriter *json, const FormatKey *key)
 {
-    static const FormatRange anything = {.low = LIMIT_NONE};
-    writeDescription(json, key);
-    writeDefault(json, key);
     switch (key->type) {
     case FORMAT_NUMBER:
     case FORMAT_FLOAT:
@@ -192,14 +263,24 @@ static void writeKeySchema(JsonWriter *json, const FormatKey *key)
         writeChoices(json, key);
         break;
     case FORMAT_POINT:
-        writeThreeNumbers(json, &anything);
+        writeThreeNumbers(json, &anyRange);
         break;
     case FORMAT_DIRECTION:
-        writeThreeNumbers(json, &anything);
+        writeThreeNumbers(json, &anyRange);
         writeNotZero(json);
         break;
+    case FORMAT_FACTORS:
+        writeFactors(json);
+        break;
     case FORMAT_COLOR:
-        writeColor(json);
+        writeColor(json, key->mapping);
+        break;
+    case FORMAT_FILE:
+        jsonKeyString(json, "type", "string");
+        jsonKeyInteger(json, "minLength", 1);
+        break;
+    case FORMAT_SPHERES:
+        writeSpheres(json, &key->range);
         break;
     case FORMAT_MATERIAL:
         jsonKey(json, "anyOf");
@@ -212,7 +293,19 @@ static void writeKeySchema(JsonWriter *json, const FormatKey *key)
         jsonEndArray(json);
         break;
     case FORMAT_MAPPING:
-        writeMapping(json, key->mapping);
+        if (key->mapping->isShared) {
+            jsonKey(json, "allOf"); /* beside a $ref draft 07 ignores all else */
+            jsonInlineArray(json);
+            writeReference(json, key->mapping->name);
+            jsonEndArray(json);
+        } else {
+            writeMapping(json, key->mapping);
+        }
+        break;
+    case FORMAT_STEPS:
+        jsonKeyString(json, "type", "array");
+        jsonKey(json, "items");
+        writeReference(json, key->mapping->name);
         break;
     case FORMAT_NAMED:
         jsonKeyString(json, "type", "object");
@@ -223,23 +316,52 @@ static void writeKeySchema(JsonWriter *json, const FormatKey *key)
         jsonKeyString(json, "type", "array");
         jsonKey(json, "items");
         writeReference(json, key->kinds->noun);
+        if (key->least > 0)
+            jsonKeyInteger(json, "minItems", (int64_t)key->least);
         break;
     }
 }
 
-/* Define what lists of kinds and named mappings refer to. */
-static void writeDefinition(JsonWriter *json, const FormatKey *key)
+static void writeKeySchema(JsonWriter *json, const FormatKey *key)
 {
-    if (key->type == FORMAT_NAMED) {
-        jsonKey(json, key->mapping->name);
-        jsonObject(json);
-        jsonKeyString(json, "description", key->mapping->help);
-        writeMapping(json, key->mapping);
-        jsonEndObject(json);
-    }
-    if (key->type != FORMAT_KINDS)
+    writeDescription(json, key);
+    writeDefault(json, key);
+    if (key->count == 0) {
+        writeValue(json, key);
         return;
-    jsonKey(json, key->kinds->noun);
+    }
+    beginItems(json);
+    writeValue(json, key);
+    endItems(json, key->count);
+}
+
+/* ---- Definitions ---- */
+
+enum {
+    MOST_DEFINITIONS = 16
+};
+
+/* The mappings and kinds that are defined, each once, in the order in which the table comes to them. */
+typedef struct Definitions {
+    const void *known[MOST_DEFINITIONS];
+    size_t count;
+} Definitions;
+
+static bool isNew(Definitions *definitions, const void *item)
+{
+    for (size_t i = 0; i < definitions->count; i++)
+        if (definitions->known[i] == item)
+            return false;
+    if (definitions->count < MOST_DEFINITIONS)
+        definitions->known[definitions->count++] = item;
+    return true;
+}
+
+static void writeDefinitions(JsonWriter *json, Definitions *definitions, const FormatMapping *mapping);
+
+static void writeKinds(JsonWriter *json, const FormatKinds *kinds)
+{
+    jsonKey(json, kinds->noun);
     jsonObject(json);
     jsonKeyString(json, "type", "object");
     jsonKeyBool(json, "additionalProperties", false);
@@ -247,8 +369,8 @@ static void writeDefinition(JsonWriter *json, const FormatKey *key)
     jsonKeyInteger(json, "maxProperties", 1);
     jsonKey(json, "properties");
     jsonObject(json);
-    for (size_t i = 0; i < key->kinds->count; i++) {
-        const FormatMapping *kind = key->kinds->kinds[i];
+    for (size_t i = 0; i < kinds->count; i++) {
+        const FormatMapping *kind = kinds->kinds[i];
         jsonKey(json, kind->name);
         jsonObject(json);
         jsonKeyString(json, "description", kind->help);
@@ -257,6 +379,32 @@ static void writeDefinition(JsonWriter *json, const FormatKey *key)
     }
     jsonEndObject(json);
     jsonEndObject(json);
+}
+
+/* Define what the key refers to, and what that refers to. */
+static void writeDefinition(JsonWriter *json, Definitions *definitions, const FormatKey *key)
+{
+    if (key->kinds != NULL && isNew(definitions, key->kinds)) {
+        writeKinds(json, key->kinds);
+        for (size_t i = 0; i < key->kinds->count; i++)
+            writeDefinitions(json, definitions, key->kinds->kinds[i]);
+    }
+    if (key->mapping == NULL || (key->mapping->isShared && !isNew(definitions, key->mapping)))
+        return;
+    if (key->mapping->isShared) {
+        jsonKey(json, key->mapping->name);
+        jsonObject(json);
+        jsonKeyString(json, "description", key->mapping->help);
+        writeMapping(json, key->mapping);
+        jsonEndObject(json);
+    }
+    writeDefinitions(json, definitions, key->mapping);
+}
+
+static void writeDefinitions(JsonWriter *json, Definitions *definitions, const FormatMapping *mapping)
+{
+    for (size_t i = 0; i < formatKeyCount(mapping); i++)
+        writeDefinition(json, definitions, formatKey(mapping, i));
 }
 
 void writeSceneSchema(Text *text)
@@ -269,8 +417,8 @@ void writeSceneSchema(Text *text)
     writeMapping(json, &sceneFormat);
     jsonKey(json, "definitions");
     jsonObject(json);
-    for (size_t i = 0; i < formatKeyCount(&sceneFormat); i++)
-        writeDefinition(json, formatKey(&sceneFormat, i));
+    Definitions definitions = {.count = 0};
+    writeDefinitions(json, &definitions, &sceneFormat);
     jsonEndObject(json);
     jsonEndObject(json);
     jsonEnd(json);
