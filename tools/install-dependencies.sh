@@ -38,6 +38,9 @@ need_demo() {
 }
 need_unit() {
     require libcmocka-dev "$pkgConfig" --exists cmocka
+    # Real meshes, not ours to hand on.
+    suggest glmark2-data test -r /usr/share/glmark2/models/bunny.obj
+    suggest assimp-testmodels test -r /usr/share/assimp/models/OBJ/spider.obj
 }
 need_test() {
     require bats has bats

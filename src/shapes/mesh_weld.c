@@ -26,12 +26,11 @@ static uint64_t mixBits(uint64_t x)
     return x;
 }
 
+/* p: without -0, which is equal to 0 and has other bits. */
 static uint64_t hashPosition(Vector3D p)
 {
-    /* -0 is equal to 0. */
-    double coordinates[3] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};
     uint64_t bits[3];
-    memcpy(bits, coordinates, sizeof bits);
+    memcpy(bits, &p, sizeof bits);
     return mixBits(bits[0] + mixBits(bits[1] + mixBits(bits[2])));
 }
 
@@ -67,7 +66,7 @@ Status weldVertices(MeshData *mesh)
         uint32_t *corner = &mesh->triangles[i / 3].vertices[i % 3];
         if (newNumber[*corner] == 0) {
             /* Look for the position; where it is not in the table, it gets the next number. */
-            Vector3D p = mesh->vertices[*corner];
+            Vector3D p = addVectors(mesh->vertices[*corner], createVector(0, 0, 0)); /* -0 becomes 0 */
             size_t slot = hashPosition(p) & (size - 1);
             while (table[slot] != 0 && !samePosition(welded[table[slot] - 1], p))
                 slot = (slot + 1) & (size - 1);
