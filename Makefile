@@ -70,20 +70,22 @@ INSTALLER = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' tools/install-dependencies.sh
 # ---------------------------------------------------------------------------------------------------------
 
 LIBRARY_SOURCES := $(filter-out src/main.c,$(wildcard src/*.c)) \
-	$(wildcard src/base/*.c src/image/*.c src/scene/*.c src/shapes/*.c povray/*.c compare/*.c)
+	$(wildcard src/base/*.c src/image/*.c src/patterns/*.c src/scene/*.c src/shapes/*.c povray/*.c compare/*.c)
 PROGRAM_SOURCES := src/main.c $(wildcard src/cli/*.c)
 # The headers a user of the library includes, and the ones they bring; the others are its own affair.
-PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/shapes/*.h) src/image/image.h \
+PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/patterns/*.h src/shapes/*.h) src/image/image.h \
 	src/scene/load.h src/scene/diagnostics.h src/scene/source_text.h povray/export.h povray/run.h \
 	compare/metrics.h compare/difference.h compare/report.h
 # Files in tests/unit that are not test programs are helpers, linked into each of them.
 UNIT_SOURCES := $(wildcard tests/unit/test_*.c)
 UNIT_HELPERS := $(filter-out $(UNIT_SOURCES),$(wildcard tests/unit/*.c))
+PROPERTY_SOURCES := $(wildcard tests/property/*.c)
 
 objects = $(1:%.c=$(BUILD)/obj/%.o)
 LIBRARY_OBJECTS := $(call objects,$(LIBRARY_SOURCES))
 PROGRAM_OBJECTS := $(call objects,$(PROGRAM_SOURCES))
 UNIT_OBJECTS := $(call objects,$(UNIT_HELPERS))
+PROPERTY_OBJECTS := $(call objects,$(PROPERTY_SOURCES))
 UNIT_TESTS := $(UNIT_SOURCES:tests/unit/%.c=$(BUILD)/tests/%)
 
 # ---------------------------------------------------------------------------------------------------------
@@ -115,6 +117,10 @@ $(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
 	$(Q)$(REQUIRE_UNIT_TOOLS)$(COMPILE) $(LDFLAGS) -MMD -MP -MF $@.d -o $@ $< $(UNIT_OBJECTS) \
 		$(BUILD)/libeclairage.a -lcmocka $(LIBRARIES)
 
+$(BUILD)/crosscheck: $(PROPERTY_OBJECTS) $(BUILD)/libeclairage.a
+	$(call say,LINK,$@)
+	$(Q)$(COMPILE) $(LDFLAGS) -o $@ $(PROPERTY_OBJECTS) $(BUILD)/libeclairage.a $(LIBRARIES)
+
 # A stamp changes only when its text does: other flags or another compiler rebuild everything, a removed
 # source leaves the library, and otherwise nothing happens.
 quote = '$(subst ','\'',$(1))'
@@ -126,7 +132,8 @@ $(BUILD)/library-files: FORCE
 	$(call stamp,$(LIBRARY_OBJECTS))
 FORCE:
 
--include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(UNIT_OBJECTS:.o=.d) $(UNIT_TESTS:=.d)
+-include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(UNIT_OBJECTS:.o=.d) $(UNIT_TESTS:=.d) \
+	$(PROPERTY_OBJECTS:.o=.d)
 
 # ---------------------------------------------------------------------------------------------------------
 # Seeing it work, and testing it
