@@ -142,7 +142,8 @@ static Status readOnce(SceneReader *reader, FileKind kind, const char *path, Sce
     bool exists = stat(path, &info) == 0;
     read->isMissing = !exists && errno == ENOENT;
     if (exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
-        return statusError(STATUS_IO, "cannot read %s: it is not an ordinary file", path);
+        return statusError(STATUS_IO, "cannot read '%s': it is not an ordinary file; give the name of a file",
+                           path);
     switch (kind) {
     case FILE_SMOOTH_MESH:
     case FILE_FLAT_MESH:
