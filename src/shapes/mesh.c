@@ -101,15 +101,19 @@ typedef struct Crossings {
     double tolerance; /* a crossing nearer than it is the start itself */
     bool isOdd;
     bool startsOnSurface;
-    bool isDoubtful; /* one of them is through an edge, where it is not sure how often it counts */
+    bool isDoubtful; /* one of them is through an edge, where it is not sure how often it counts, or near the
+                      * start */
 } Crossings;
 
 static void countCrossing(void *context, size_t triangle, const TriangleHit *hit)
 {
     (void)triangle;
     Crossings *crossings = context;
+    /* A ray that all but runs along a triangle may meet it only farther on. */
     if (fabs(hit->distance) <= crossings->tolerance)
         crossings->startsOnSurface = true;
+    else if (fabs(hit->distance) <= 1024 * crossings->tolerance)
+        crossings->isDoubtful = true;
     if (hit->distance > 0) {
         crossings->isOdd = !crossings->isOdd;
         crossings->isDoubtful |= hit->isOnEdge;

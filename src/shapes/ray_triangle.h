@@ -17,6 +17,9 @@
 /* Below this cosine to the normal a ray counts as parallel to the plane. */
 #define RAY_TRIANGLE_PARALLEL 0x1p-40
 
+/* A corner's share below it is next to an edge. */
+#define RAY_TRIANGLE_NEAR_EDGE 0x1p-40
+
 /* A ray made ready for many triangles: the shear that turns it into the z axis. */
 typedef struct ShearedRay {
     Vector3D origin, direction;
@@ -25,7 +28,7 @@ typedef struct ShearedRay {
 } ShearedRay;
 
 /* Where the ray meets the triangle: its distance, and the shares of the corners, which are at least 0 and
- * have the sum 1. isOnEdge: it passes exactly through an edge or a vertex, as far as doubles can tell. */
+ * have the sum 1. isOnEdge: it passes through an edge or a vertex, or so near that rounding decides. */
 typedef struct TriangleHit {
     double distance;
     double share1, share2; /* of the second and the third corner; the first has the rest */
@@ -85,7 +88,8 @@ static inline bool intersectTriangle(const ShearedRay *ray, Vector3D a, Vector3D
                                                         : ray->shearZ * (u * az + v * bz + w * cz) / sum;
     hit->share1 = v / sum;
     hit->share2 = w / sum;
-    hit->isOnEdge = u == 0 || v == 0 || w == 0;
+    double nearEdge = RAY_TRIANGLE_NEAR_EDGE * fabs(sum);
+    hit->isOnEdge = fabs(u) <= nearEdge || fabs(v) <= nearEdge || fabs(w) <= nearEdge;
     return true;
 }
 

@@ -173,10 +173,10 @@ static void closedMeansTwoOppositeTrianglesAtEachEdge(void **state)
 {
     (void)state;
     /* Flipped faces, a missing one, one too many, two cubes that touch along an edge. */
-    for (int kind = 0; kind < 6; kind++) {
+    for (int kind = 0; kind < 7; kind++) {
         MeshData *mesh = createMesh(60, 30, false);
         addCube(mesh, createVector(0, 0, 0), 1, kind != 0, kind == 1 ? 3 : 6, 0x15);
-        if (kind == 2)
+        if (kind == 2 || kind == 6)
             mesh->triangleCount--;
         if (kind == 3) {
             const uint32_t *v = mesh->triangles[0].vertices;
@@ -184,10 +184,11 @@ static void closedMeansTwoOppositeTrianglesAtEachEdge(void **state)
         }
         if (kind == 4)
             addCube(mesh, createVector(1, 1, 0), 1, true, 6, 0);
-        if (kind == 5) {
+        if (kind >= 5) {
             /* What has two corners in one place changes nothing. */
             const uint32_t *v = mesh->triangles[0].vertices;
-            addTriangle(mesh, v[0], v[1], v[1]);
+            for (int i = 0; i < 8; i++)
+                addTriangle(mesh, v[0], v[1], v[1]);
         }
         build(mesh);
         bool expected = kind == 0 || kind == 5;
@@ -352,6 +353,8 @@ static void treeFindsWhatTryingEachTriangleFinds(void **state)
             if (i % 4 == 3)
                 from = createVector(target.x, target.y, target.z + size);
             Ray ray = rayFromTo(from, target);
+            if (i % 8 == 7)
+                ray.direction = createVector(-0.0, -0.0, -1);
 
             HitSink all = createHitSink(0, true), nearest = createHitSink(0, false);
             intersectObject(&object, &ray, &all);
@@ -442,32 +445,43 @@ static void containsIsRightAlsoThroughEdges(void **state)
         freeMesh(mesh);
     }
 
-    /* A spike so that the first directions tried each go exactly through an edge: an octahedron with a corner
-     * on the ray has the ray of its centre through that corner. */
+    /* From the middle of two pyramids base to base, all the rays that are tried go through a corner, and the
+     * winding number decides. */
     static const Vector3D tried[] = {{0.5127, 0.7441, 0.4283},
                                      {-0.6329, 0.4587, 0.6238},
                                      {0.3371, -0.8123, 0.4759},
                                      {0.2713, 0.3917, -0.8791}};
-    for (size_t d = 0; d < 4; d++) {
-        mesh = createMesh(6, 8, false);
-        Vector3D z = normalize(tried[d]), x = normalize(cross(z, createVector(0, 1, 0))), y = cross(z, x);
-        Vector3D axes[6] = {x, y, multVector(x, -1), multVector(y, -1), z, multVector(z, -1)};
-        for (int i = 0; i < 6; i++)
-            addVertex(mesh, axes[i]);
-        for (uint32_t i = 0; i < 4; i++) {
-            addTriangle(mesh, i, (i + 1) % 4, 4);
-            addTriangle(mesh, (i + 1) % 4, i, 5);
-        }
-        build(mesh);
-        assert_true(mesh->isClosed);
-        object = objectOf(mesh);
-        for (int i = -20; i <= 20; i++) {
-            Vector3D p = multVector(z, i / 10.0);
-            if (abs(i) != 10)
-                assert_int_equal(objectContains(&object, p), abs(i) < 10);
-        }
-        freeMesh(mesh);
+    mesh = createMesh(5, 6, false);
+    for (int i = 0; i < 4; i++)
+        addVertex(mesh, tried[i]);
+    addVertex(mesh, multVector(tried[0], -1));
+    for (uint32_t i = 1; i < 4; i++) {
+        addTriangle(mesh, 0, i, i % 3 + 1);
+        addTriangle(mesh, 4, i % 3 + 1, i);
     }
+    build(mesh);
+    assert_true(mesh->isClosed);
+    object = objectOf(mesh);
+    assert_true(objectContains(&object, createVector(0, 0, 0)));
+    for (int i = -15; i <= 15; i++)
+        if (abs(i) != 10)
+            assert_int_equal(objectContains(&object, multVector(tried[0], i / 10.0)), abs(i) < 10);
+    freeMesh(mesh);
+}
+
+static void pointsOnTheSurfaceAreNotInside(void **state)
+{
+    (void)state;
+    MeshData *mesh = createBall(createVector(3, 4, 5), 16, 0.2, false);
+    Object object = objectOf(mesh);
+    for (size_t i = 0; i < mesh->triangleCount; i++) {
+        Vector3D p[3];
+        meshCorners(mesh, i, p);
+        Vector3D middle = multVector(addVectors(p[0], addVectors(p[1], p[2])), 1.0 / 3);
+        assert_false(objectContains(&object, middle));
+        assert_false(objectContains(&object, p[0]));
+    }
+    freeMesh(mesh);
 }
 
 /* ---- Normals ---- */
@@ -575,6 +589,7 @@ int main(void)
         cmocka_unit_test(treeFindsWhatTryingEachTriangleFinds),
         cmocka_unit_test(noRaySlipsBetweenTriangles),
         cmocka_unit_test(containsIsRightAlsoThroughEdges),
+        cmocka_unit_test(pointsOnTheSurfaceAreNotInside),
         cmocka_unit_test(absentNormalsAreWeightedByAngle),
         cmocka_unit_test(givenNormalsAreNormalisedAndZeroIsAbsent),
         cmocka_unit_test(smoothNormalIsThatOfTheSmoothTriangle),

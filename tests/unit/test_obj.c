@@ -289,6 +289,30 @@ static void polygonsWithStraightCornersAndHoles(void **state)
     freeMesh(fan);
 }
 
+static void polygonsWithRandomHoles(void **state)
+{
+    (void)state;
+    /* A star with a star cut out of it, joined by a pair of edges between their first corners. */
+    for (int round = 0; round < 2000; round++) {
+        Vector3D corners[64];
+        size_t count = 0;
+        double area = 0;
+        for (int hole = 0; hole < 2; hole++) {
+            size_t sides = 3 + (size_t)(randomBits() % 28);
+            double radii[31], step = 2 * 3.14159265358979323846 / (double)sides;
+            for (size_t i = 0; i < sides; i++)
+                radii[i] = hole ? randomIn(0.1, 0.9) : randomIn(2, 4);
+            for (size_t i = 0; i <= sides; i++) {
+                double r = radii[i % sides], angle = (hole ? -step : step) * (double)(i % sides);
+                corners[count++] = createVector(r * cos(angle), r * sin(angle), 5);
+                if (i < sides)
+                    area += (hole ? -0.5 : 0.5) * r * radii[(i + 1) % sides] * sin(step);
+            }
+        }
+        checkCut(corners, count, area);
+    }
+}
+
 static void hopelessPolygonsEnd(void **state)
 {
     (void)state;
@@ -489,6 +513,7 @@ int main(void)
         cmocka_unit_test(aNulByteIsNoNumber),
         cmocka_unit_test(concavePolygonsAreRight),
         cmocka_unit_test(polygonsWithStraightCornersAndHoles),
+        cmocka_unit_test(polygonsWithRandomHoles),
         cmocka_unit_test(hopelessPolygonsEnd),
         cmocka_unit_test(randomChangesNeverCrash),
         cmocka_unit_test(realFilesAreRead),
