@@ -3,8 +3,9 @@
  * An ear is a convex corner whose triangle with its two neighbours has no other corner in it; every simple
  * polygon has two (Meisters 1975, "Polygons have ears"), so one after the other can be cut off. Only reflex
  * corners can lie in the triangle. The polygon is looked at in the coordinate plane that its normal
- * (Newell's: Sutherland, Sproull and Schumacker 1974) is steepest to. Holes are joined to the border by a
- * pair of edges in many files; corners in the same place as one of the ear's are therefore no hindrance.
+ * (Newell's: Sutherland, Sproull and Schumacker 1974) is steepest to. A hole
+ * that is joined to the border by a pair of edges leaves ears with another corner in the same place as
+ * one of theirs; so where no ear is free of others on its border, one that is free inside will do.
  */
 #include "shapes/polygon.h"
 
@@ -23,11 +24,6 @@ typedef struct PlaneCorner {
 static double turn(const PlaneCorner *a, const PlaneCorner *b, const PlaneCorner *c)
 {
     return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
-}
-
-static bool samePlace(const PlaneCorner *a, const PlaneCorner *b)
-{
-    return a->x == b->x && a->y == b->y;
 }
 
 /* Look along the axis nearest to the normal so that the polygon goes round to the left. */
@@ -73,7 +69,7 @@ static bool isEar(const PlaneCorner *ring, uint32_t corner, bool strict)
     const PlaneCorner *a = &ring[b->previous], *c = &ring[b->next];
     for (uint32_t i = c->next; i != b->previous; i = ring[i].next) {
         const PlaneCorner *p = &ring[i];
-        if (!p->isReflex || samePlace(p, a) || samePlace(p, b) || samePlace(p, c))
+        if (!p->isReflex)
             continue;
         double ab = turn(a, b, p), bc = turn(b, c, p), ca = turn(c, a, p);
         if (strict ? ab >= 0 && bc >= 0 && ca >= 0 : ab > 0 && bc > 0 && ca > 0)

@@ -362,7 +362,8 @@ static void treeFindsWhatTryingEachTriangleFinds(void **state)
             ShearedRay sheared = shearRay(&ray);
             size_t expected = 0;
             double nearestDistance = INFINITY;
-            qsort(all.all, all.count, sizeof *all.all, compareHits);
+            if (all.count > 0)
+                qsort(all.all, all.count, sizeof *all.all, compareHits);
             for (size_t t = 0; t < mesh->triangleCount; t++) {
                 TriangleHit hit;
                 Vector3D q[3];
