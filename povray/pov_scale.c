@@ -10,9 +10,10 @@ static const double FARTHEST_PART = 1e4;
 static const double FARTHEST_EXPORTED = 0x1p22;
 
 /* Inside glass, rays meet surfaces at all distances, down to nothing in the edges, and a shadow counts how
- * many it crosses. So transparent parts are made larger, as far as the horizon of a plane allows. */
-static const double SMALLEST_GLASS = 128;
-static const double FARTHEST_WITH_GLASS = 0x1p13;
+ * many it crosses; and on a mesh, shadow rays graze the neighbours of the triangle that they leave. So scenes
+ * with either are made larger, as far as the horizon of a plane allows. */
+static const double SMALLEST_OF_DELICATE = 128;
+static const double FARTHEST_OF_DELICATE = 0x1p13;
 
 /* The distance from the camera to the farthest corner of a box. */
 static double farthestCorner(Bounds bounds, Vector3D camera)
@@ -20,6 +21,14 @@ static double farthestCorner(Bounds bounds, Vector3D camera)
     Vector3D toMin = subVectors(bounds.min, camera), toMax = subVectors(bounds.max, camera);
     return norm(createVector(fmax(fabs(toMin.x), fabs(toMax.x)), fmax(fabs(toMin.y), fabs(toMax.y)),
                              fmax(fabs(toMin.z), fabs(toMax.z))));
+}
+
+static bool hasMesh(const Object *object)
+{
+    for (size_t i = 0; object->kind == SHAPE_CSG && i < object->csg.partCount; i++)
+        if (hasMesh(&object->csg.parts[i]))
+            return true;
+    return object->kind == SHAPE_MESH;
 }
 
 double povScale(const Scene *scene)
@@ -44,17 +53,19 @@ double povScale(const Scene *scene)
         smallest = farthest;
     if (!(smallest > 0) || !isfinite(farthest) || !(farthest > 0))
         return 1;
-    bool glass = false;
-    for (size_t i = 0; i < scene->objectCount && !glass; i++)
-        glass = transmissivePart(scene, &scene->objects[i]) != NULL;
-    if (!glass && smallest >= SMALLEST_PART && farthest <= FARTHEST_PART)
+    bool isDelicate = false;
+    for (size_t i = 0; i < scene->objectCount && !isDelicate; i++)
+        isDelicate = hasMesh(&scene->objects[i]) || transmissivePart(scene, &scene->objects[i]) != NULL;
+    if (!isDelicate && smallest >= SMALLEST_PART && farthest <= FARTHEST_PART)
         return 1;
 
-    /* Bring the smallest part to a size of 1 to 2, or more with glass, and the farthest within reach. */
+    /* Bring the smallest part to a size of 1 to 2, or more of a delicate scene, and the farthest within
+     * reach. */
     double scale = exp2(-floor(log2(smallest)));
     while (farthest * scale > FARTHEST_EXPORTED)
         scale /= 2;
-    while (glass && smallest * scale < SMALLEST_GLASS && farthest * scale * 2 <= FARTHEST_WITH_GLASS)
+    while (isDelicate && smallest * scale < SMALLEST_OF_DELICATE &&
+           farthest * scale * 2 <= FARTHEST_OF_DELICATE)
         scale *= 2;
     return scale;
 }

@@ -46,8 +46,9 @@ typedef struct SurfacePoint {
     const Object *object; /* the whole object; hit.object is its part */
     Hit hit;
     Vector3D position;
-    Vector3D normal; /* turned to the ray's side */
-    double offset;   /* how far to step off the surface */
+    Vector3D normal;     /* turned to the ray's side */
+    Vector3D flatNormal; /* of the surface itself, where normal is interpolated; on either side */
+    double offset;       /* how far to step off the surface */
 } SurfacePoint;
 
 /* Shadow acne, and what to do about it (handout, exercise 04, questions 03 and 04). The computed point
@@ -59,14 +60,16 @@ typedef struct SurfacePoint {
  * fixed 0.001 is too much for a scene of millimetres and too little for one of kilometres. But the
  * rounding error is known: it is a few units in the last place of the largest number that went into
  * the point. So the step is 2^-40 of that number: some thousand times the error, and a million
- * millionth of the scene. Mirrored rays start likewise, refracted ones on the other side. The light's end
- * has the same trouble when the light lies on a surface, and the same remedy.
+ * millionth of the scene. Every ray that leaves the surface steps off it to the side that it leaves to,
+ * refracted ones to the other one. The light's end has the same trouble when the light lies on a surface,
+ * and the same remedy.
  *
  * A scene that gives a shadow bias gets the textbook's remedy instead, for comparison: start on the
  * surface, and count only what is farther than the bias. With 0 the acne is back. */
-static Vector3D offsetStart(const SurfacePoint *point, double side)
+static Vector3D offsetStart(const SurfacePoint *point, Vector3D direction)
 {
-    return addVectors(point->position, multVector(point->normal, side * point->offset));
+    double step = copysign(point->offset, dot(point->flatNormal, direction));
+    return addVectors(point->position, multVector(point->flatNormal, step));
 }
 
 static int compareDistances(const void *a, const void *b)
@@ -96,7 +99,7 @@ static bool objectIsTransmissive(const Object *object, const Scene *scene)
 static Color3f lightThatReaches(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving)
 {
     bool ownRule = isnan(scene->render.shadowBias);
-    Vector3D start = ownRule ? offsetStart(point, 1) : point->position;
+    Vector3D start = ownRule ? offsetStart(point, arriving->direction) : point->position;
     Ray shadowRay = createRay(start, arriving->direction);
     double farthest = INFINITY;
     if (isfinite(arriving->distance)) {
@@ -236,7 +239,8 @@ static double crossSurface(const Media *media, const Object *object, double ior,
 static Color3f traceMirrored(const Scene *scene, const SurfacePoint *point, const Ray *ray,
                              const Media *media, int depth, RayCounts *counts)
 {
-    Ray mirrored = createRay(offsetStart(point, 1), normalize(reflect(ray->direction, point->normal)));
+    Vector3D direction = normalize(reflect(ray->direction, point->normal));
+    Ray mirrored = createRay(offsetStart(point, direction), direction);
     counts->secondary++;
     return traceRay(&mirrored, scene, media, depth + 1, counts);
 }
@@ -262,7 +266,8 @@ static Color3f shade(const Scene *scene, const SurfacePoint *point, const Ray *r
             return addColors(color, traceMirrored(scene, point, ray, media, depth, counts));
         Vector3D direction =
             addVectors(multVector(ray->direction, r), multVector(point->normal, r * c - sqrt(k)));
-        Ray refracted = createRay(offsetStart(point, -1), r == 1 ? ray->direction : normalize(direction));
+        direction = r == 1 ? ray->direction : normalize(direction);
+        Ray refracted = createRay(offsetStart(point, direction), direction);
         counts->secondary++;
         Color3f through = traceRay(&refracted, scene, &behind, depth + 1, counts);
         color = addColors(color, multColors(through, material.transmission));
@@ -304,6 +309,7 @@ static Color3f traceRay(const Ray *ray, const Scene *scene, const Media *media, 
         return throughFog(&scene->fog, backgroundColor(&scene->background, ray), INFINITY);
     point.position = pointOnRay(ray, point.hit.distance);
     point.normal = objectNormal(ray, &point.hit, point.position);
+    point.flatNormal = objectFlatNormal(&point.hit, point.normal);
     point.offset = hitMagnitude(point.hit.object, ray, point.hit.distance) * ROUNDING_MARGIN;
     return throughFog(&scene->fog, shade(scene, &point, ray, media, depth, counts), point.hit.distance);
 }

@@ -68,6 +68,13 @@ static void meshIntersect(const Object *object, const Ray *ray, HitSink *sink)
     walkMesh(object->mesh.data, ray, &reporting.limit, report, &reporting);
 }
 
+static Vector3D meshFlatNormal(const Object *object, const Hit *hit)
+{
+    Vector3D corners[3];
+    meshCorners(object->mesh.data, (size_t)hit->part, corners);
+    return normalize(triangleCross(corners));
+}
+
 static Vector3D meshNormal(const Object *object, const Hit *hit, Vector3D position)
 {
     (void)position;
@@ -84,9 +91,7 @@ static Vector3D meshNormal(const Object *object, const Hit *hit, Vector3D positi
         if (norm(mean) > 1e-9)
             return normalize(mean);
     }
-    Vector3D corners[3];
-    meshCorners(mesh, (size_t)hit->part, corners);
-    return normalize(triangleCross(corners));
+    return meshFlatNormal(object, hit);
 }
 
 /* ---- Inside ---- */
@@ -221,6 +226,7 @@ static void meshWritePov(const Object *object, double scale, Text *pov)
 const Shape meshShape = {.name = "mesh",
                          .intersect = meshIntersect,
                          .normal = meshNormal,
+                         .flatNormal = meshFlatNormal,
                          .contains = meshContains,
                          .hasInside = meshHasInside,
                          .bounds = meshBounds,

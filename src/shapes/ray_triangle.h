@@ -78,6 +78,11 @@ static inline bool intersectTriangle(const ShearedRay *ray, Vector3D a, Vector3D
     double sum = u + v + w;
     if (sum == 0)
         return false;
+    /* A difference of two rounded products never has the wrong sign, but it may be 0. With a triangle that is
+     * tiny beside its distance from the ray all of them are; so ask whether it lies round 0 at all. */
+    if ((ax > 0 && bx > 0 && cx > 0) || (ax < 0 && bx < 0 && cx < 0) || (ay > 0 && by > 0 && cy > 0) ||
+        (ay < 0 && by < 0 && cy < 0))
+        return false;
 
     /* Meet the plane: so a point a little off the surface stays on its side, however thin the triangle is.
      * Where the ray all but lies in the plane, take the depth of the corners, of which u, v and w are the

@@ -111,6 +111,15 @@ Vector3D objectNormal(const Ray *ray, const Hit *hit, Vector3D position)
     return turnedToRay(n, ray);
 }
 
+Vector3D objectFlatNormal(const Hit *hit, Vector3D normal)
+{
+    const Object *object = hit->object;
+    if (objectShape(object)->flatNormal == NULL)
+        return normal;
+    Vector3D n = objectShape(object)->flatNormal(object, hit);
+    return object->transform != NULL ? normalize(transformNormal(&object->transform->objectFromWorld, n)) : n;
+}
+
 bool objectContains(const Object *object, Vector3D point)
 {
     return objectShape(object)->contains(object, objectSpacePoint(object, point));

@@ -65,6 +65,10 @@ typedef struct Shape {
     /* The unit normal at a hit, on either side; position is the hit's. */
     Vector3D (*normal)(const Object *object, const Hit *hit, Vector3D position);
 
+    /* The unit normal of the surface itself, where normal() is an interpolated one; NULL where they are the
+     * same. Rays that leave the surface step off it along this one. */
+    Vector3D (*flatNormal)(const Object *object, const Hit *hit);
+
     /* Whether the point is strictly inside; false for a shape without an inside. */
     bool (*contains)(const Object *object, Vector3D point);
 
@@ -109,6 +113,9 @@ void intersectObject(const Object *object, const Ray *ray, HitSink *sink);
 
 /* The unit normal at a hit on hit->object, turned to the ray's side. */
 Vector3D objectNormal(const Ray *ray, const Hit *hit, Vector3D position);
+
+/* The unit normal of the surface itself at a hit, on either side; normal is what objectNormal gave. */
+Vector3D objectFlatNormal(const Hit *hit, Vector3D normal);
 
 /* Whether the point is strictly inside. */
 bool objectContains(const Object *object, Vector3D point);

@@ -103,6 +103,12 @@ static void triangleIntersect(const Object *object, const Ray *ray, HitSink *sin
                   edgeC / sum);
 }
 
+static Vector3D triangleFlatNormal(const Object *object, const Hit *hit)
+{
+    (void)hit;
+    return normalize(areaNormal(object->triangle.vertices));
+}
+
 /* Of a smooth triangle (1 - u - v) na + u nb + v nc, as long as that is a direction (Phong 1975). */
 static Vector3D triangleNormal(const Object *object, const Hit *hit, Vector3D position)
 {
@@ -116,7 +122,7 @@ static Vector3D triangleNormal(const Object *object, const Hit *hit, Vector3D po
         if (norm(mixed) > 1e-9)
             return normalize(mixed);
     }
-    return normalize(areaNormal(triangle->vertices));
+    return triangleFlatNormal(object, hit);
 }
 
 static bool triangleBounds(const Object *object, Bounds *bounds)
@@ -153,6 +159,7 @@ static void triangleWritePov(const Object *object, double scale, Text *pov)
 const Shape triangleShape = {.name = "triangle",
                              .intersect = triangleIntersect,
                              .normal = triangleNormal,
+                             .flatNormal = triangleFlatNormal,
                              .contains = containsNothing,
                              .hasInside = alwaysFalse,
                              .bounds = triangleBounds,
