@@ -99,10 +99,15 @@ Object randomObject(ShapeKind kind, double size)
 Object randomSolid(double size)
 {
     const ShapeKind solids[] = {SHAPE_SPHERE, SHAPE_CUBE, SHAPE_BOX, SHAPE_CONE, SHAPE_TORUS, SHAPE_PLANE};
-    Object object = randomObject(solids[(int)(randomUnit() * 6)], size);
-    if (object.kind == SHAPE_CONE)
-        object.cone.isOpen = false;
-    return object;
+    for (;;) {
+        Object object = randomObject(solids[(int)(randomUnit() * 6)], size);
+        if (object.kind == SHAPE_CONE)
+            object.cone.isOpen = false;
+        Bounds bounds;
+        if (!objectShape(&object)->bounds(&object, &bounds) ||
+            largestCoordinate(subVectors(bounds.max, bounds.min)) > size / 2)
+            return object;
+    }
 }
 
 Transform randomTransform(double size)

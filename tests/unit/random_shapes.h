@@ -22,7 +22,7 @@ Ray rayFromTo(Vector3D from, Vector3D to);
  * flat, pointed, open, closed. */
 Object randomObject(ShapeKind kind, double size);
 
-/* The same, but one that has an inside. */
+/* The same, but one that has an inside and is not small: it reaches half of size, or has no end. */
 Object randomSolid(double size);
 
 /* Rotated, moved, scaled by factors of 1/3 .. 3 of either sign, and sheared. */

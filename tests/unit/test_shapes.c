@@ -281,6 +281,52 @@ static void nastyRaysGiveNoNonsense(void **state)
     }
 }
 
+/* Rays to a light start a little above the surface, by the tracer's rule; they must not meet the surface that
+ * they start on. A hit is that surface when the ray is not farther from it half the way there. */
+static void noSurfaceShadowsItself(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        size_t rays = 0;
+        for (int i = 0; i < 20000 && isSimpleKind(kind); i++) {
+            double size = pow(10, randomIn(-6, 6));
+            Object object = randomObject((ShapeKind)kind, size);
+            if (kind == SHAPE_TRIANGLE)
+                object.triangle.isSmooth = false;
+            Vector3D target = randomTarget(&object, size);
+            Vector3D from =
+                addVectors(target, multVector(randomDirection(), size * pow(10, randomIn(-2, 2))));
+            Ray ray = rayFromTo(from, target);
+            Intersection hit;
+            if (!intersectsObject(&ray, &object, &hit))
+                continue;
+            double offset = hitMagnitude(&object, &ray, hit.distance) * 0x1p-40;
+            Vector3D start = addVectors(hit.position, multVector(hit.normal, offset));
+            /* Every other one grazes. */
+            Vector3D direction = randomDirection();
+            if (dot(direction, hit.normal) <= 0)
+                direction = multVector(direction, -1);
+            if (i % 2 == 0)
+                direction = normalize(addVectors(cross(hit.normal, direction),
+                                                 multVector(hit.normal, pow(10, randomIn(-9, -2)))));
+            Ray toLight = createRay(start, direction);
+            HitSink sink = createHitSink(0, false);
+            intersectObject(&object, &toLight, &sink);
+            rays++;
+            if (!(sink.nearest.distance < INFINITY))
+                continue;
+            /* From inside a round surface the way along it ends soon, but at its other side. */
+            Object solid = object;
+            if (kind == SHAPE_CONE)
+                solid.cone.isOpen = false;
+            double t = sink.nearest.distance;
+            if (objectContains(&solid, pointOnRay(&toLight, 2 * t)) == objectContains(&solid, start))
+                assert_true(distanceToSurface(&object, pointOnRay(&toLight, t / 2)) > 0.9 * offset);
+        }
+        assert_true(rays > 3000 || !isSimpleKind(kind));
+    }
+}
+
 static void boundsHoldEveryHit(void **state)
 {
     (void)state;
@@ -311,6 +357,7 @@ int main(void)
         cmocka_unit_test(hitsLieOnTheSurfaceAndNothingIsNearer),
         cmocka_unit_test(everyHitIsReported),
         cmocka_unit_test(nastyRaysGiveNoNonsense),
+        cmocka_unit_test(noSurfaceShadowsItself),
         cmocka_unit_test(boundsHoldEveryHit),
     };
     return cmocka_run_group_tests_name("shapes", tests, NULL, NULL);
