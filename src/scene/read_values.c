@@ -53,6 +53,10 @@ void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, con
         textAppend(&hint, "put a space behind the ':'");
     else if (key->type == FORMAT_KINDS && value->kind == NODE_MAPPING)
         textAppendFormat(&hint, "begin each %s with '- '", key->kinds->noun);
+    else if (key->type == FORMAT_COLOR && value->kind == NODE_SCALAR)
+        textAppend(&hint, "write how much red, green and blue it has, in brackets: red is [1, 0, 0]");
+    else if ((key->type == FORMAT_POINT || key->type == FORMAT_DIRECTION) && value->kind == NODE_SCALAR)
+        textAppend(&hint, "write the three numbers in brackets, such as [0, 1, 0]");
     reportError(reader, place, hint.length > 0 ? hint.data : NULL, "%s", textString(&message));
     textFree(&message);
     textFree(&hint);
@@ -156,7 +160,7 @@ static bool readThree(SceneReader *reader, const FormatKey *key, const char *con
 {
     if (list->count != 3) {
         bool noCommas =
-            list->count == 1 && list->first->kind == NODE_SCALAR && strchr(list->first->text, ' ') != NULL;
+            list->count == 1 && list->first->kind == NODE_SCALAR && strpbrk(list->first->text, " ;") != NULL;
         reportError(reader, place, noCommas ? "put commas between the numbers" : NULL,
                     "'%s' needs 3 numbers [%s, %s, %s], but has %zu", key->name, components[0], components[1],
                     components[2], list->count);
