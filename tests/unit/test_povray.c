@@ -149,6 +149,54 @@ static void sizesThatPovraySeesWell(void **state)
     assert_true(povScale(&empty) == 1);
 }
 
+/* What the camera stands on, what it looks along and where the lights are. */
+static void sizesForTheCamera(void **state)
+{
+    (void)state;
+    /* A camera a hair from a surface would look through it; the kind of surface and the side do not matter.
+     */
+    for (int kind = 0; kind < 4; kind++) {
+        Scene close = createScene();
+        Vector3D corner = createVector(-1e-6, -1e-6, -2);
+        if (kind == 0)
+            addSphereToScene(&close, createSphere(createVector(2, -2, 1), 3 - 1e-6, defaultMaterial()));
+        else if (kind == 1)
+            addPlaneToScene(&close,
+                            createPlane(createVector(1e-6, 0, 0), createVector(3, 1, -2), defaultMaterial()));
+        else if (kind == 2)
+            addBoxToScene(&close, createBox(createVector(-5, -4, -3), corner, defaultMaterial()));
+        else
+            addBoxToScene(&close,
+                          createBox(createVector(-5, -4, -3), createVector(1e-6, 1, 1), defaultMaterial()));
+        close.camera.position = kind == 2 ? createVector(0, 0, -2.5) : createVector(0, 0, 0);
+        double scale = povScale(&close);
+        assert_true(1e-6 * scale >= 1e-2);
+        assert_true(scale <= 0x1p22);
+        freeScene(&close);
+    }
+
+    /* Nor is a plane to end before the horizon of the picture for the sake of a thin block. */
+    Scene flat = createScene();
+    flat.image.width = 96;
+    flat.image.height = 72;
+    flat.camera.position = createVector(0, 1, 0);
+    addPlaneToScene(&flat, createPlane(createVector(0, 0, 0), createVector(0, 1, 0), defaultMaterial()));
+    assert_true(povScale(&flat) == 1);
+    addBoxToScene(&flat, createBox(createVector(-1, 0, -3), createVector(1, 1e-9, -2), defaultMaterial()));
+    double horizon = 72 / (2 * tan(30 * 3.14159265358979 / 180) * 0.5); /* half a pixel below it */
+    assert_true(povScale(&flat) * horizon <= 0x1p22);
+    assert_true(povScale(&flat) > 0x1p13);
+    freeScene(&flat);
+
+    /* A far light changes nothing; of a globe only what is before the horizon counts. */
+    Scene globe = shinySphere();
+    addLightToScene(&globe, createLight(createVector(1e9, 1e9, 0), createColor(1, 1, 1)));
+    assert_true(povScale(&globe) == 1);
+    addSphereToScene(&globe, createSphere(createVector(0, -1e11 - 2, 0), 1e11, defaultMaterial()));
+    assert_true(povScale(&globe) >= 0.25);
+    freeScene(&globe);
+}
+
 /* What is left in a folder but . and .. */
 static int entriesIn(const char *path)
 {
@@ -351,11 +399,11 @@ static void theRealOnesErrorIsQuoted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbersAreWrittenInFull),  cmocka_unit_test(theFirstCommentIsTheCommand),
-        cmocka_unit_test(aNameCannotBecomeCode),    cmocka_unit_test(refusesWhatItCannotSay),
-        cmocka_unit_test(sizesThatPovraySeesWell),  cmocka_unit_test(missingPovraySaysHowToInstallIt),
-        cmocka_unit_test(failureAndTimeoutAreTold), cmocka_unit_test(theRealOneDrawsOurPicture),
-        cmocka_unit_test(theRealOnesErrorIsQuoted),
+        cmocka_unit_test(numbersAreWrittenInFull),         cmocka_unit_test(theFirstCommentIsTheCommand),
+        cmocka_unit_test(aNameCannotBecomeCode),           cmocka_unit_test(refusesWhatItCannotSay),
+        cmocka_unit_test(sizesThatPovraySeesWell),         cmocka_unit_test(sizesForTheCamera),
+        cmocka_unit_test(missingPovraySaysHowToInstallIt), cmocka_unit_test(failureAndTimeoutAreTold),
+        cmocka_unit_test(theRealOneDrawsOurPicture),       cmocka_unit_test(theRealOnesErrorIsQuoted),
     };
     return cmocka_run_group_tests_name("povray", tests, NULL, NULL);
 }
