@@ -17,8 +17,8 @@ typedef struct PovraySettings {
 Status findPovray(void);
 
 /* Render the text of a .pov into *image, which the caller frees. STATUS_POVRAY when POV-Ray is missing,
- * fails (with the end of what it said) or takes too long; STATUS_INTERRUPTED when cancelled. Nothing is
- * left behind: no process, no file. */
+ * fails (with the end of what it said), takes too long, writes too much or another picture;
+ * STATUS_INTERRUPTED when cancelled. Nothing is left behind: no process, no file. */
 Status runPovray(const char *pov, const PovraySettings *settings, Image *image);
 
 #endif

@@ -298,27 +298,69 @@ static void failureAndTimeoutAreTold(void **state)
     removeFolder(fake);
     free(fake);
 
-    /* The program and what it started are ended. */
-    fake = fakePovray("#!/bin/sh\n/bin/sleep 60 &\necho $! > ${0%/*}/pid\nwait\n");
-    PovraySettings hasty = small;
-    hasty.timeoutSeconds = 0.2;
-    status = runPovray("", &hasty, &image);
+    /* A picture that is none, or another one, is POV-Ray's failure and names no file of ours. */
+    fake = fakePovray("#!/bin/sh\necho no >picture.png\n");
+    status = runPovray("", &small, &image);
     assert_int_equal(status.code, STATUS_POVRAY);
-    assert_non_null(strstr(status.message, "longer than"));
-    char pidPath[512], *pid = NULL;
-    size_t length;
-    snprintf(pidPath, sizeof pidPath, "%s/pid", fake);
-    status = readWholeFile(pidPath, 100, &pid, &length);
-    assert_true(statusIsOk(&status));
-    bool alive = true;
-    for (int i = 0; i < 200 && alive; i++) {
-        usleep(10000);
-        alive = isRunning(atoi(pid));
-    }
-    assert_false(alive);
-    free(pid);
+    assert_non_null(strstr(status.message, "cannot be read"));
+    assert_null(strstr(status.message, "picture.png"));
     removeFolder(fake);
     free(fake);
+
+    fake = fakePovray("#!/bin/sh\nexec /bin/cat ${0%/*}/other.png >picture.png\n");
+    char otherPath[512];
+    snprintf(otherPath, sizeof otherPath, "%s/other.png", fake);
+    Image other;
+    status = createImage(small.width + 1, small.height, small.bitDepth, small.encoding, &other);
+    assert_true(statusIsOk(&status));
+    status = writePng(otherPath, &other);
+    assert_true(statusIsOk(&status));
+    freeImage(&other);
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "65 x"));
+    removeFolder(fake);
+    free(fake);
+
+    fake = fakePovray("no program\n");
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "cannot start"));
+    removeFolder(fake);
+    free(fake);
+
+    /* What is said without end does not fill the disk. */
+    fake = fakePovray("#!/bin/sh\nexec /usr/bin/yes\n");
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "64 MB"));
+    removeFolder(fake);
+    free(fake);
+
+    /* The program and what it started are ended, whether it takes too long or ends by itself. */
+    for (int i = 0; i < 2; i++) {
+        fake = fakePovray(i == 0 ? "#!/bin/sh\n/bin/sleep 60 &\necho $! > ${0%/*}/pid\nwait\n"
+                                 : "#!/bin/sh\n/bin/sleep 60 &\necho $! > ${0%/*}/pid\nexit 1\n");
+        PovraySettings hasty = small;
+        hasty.timeoutSeconds = i == 0 ? 0.2 : 20;
+        status = runPovray("", &hasty, &image);
+        assert_int_equal(status.code, STATUS_POVRAY);
+        assert_non_null(strstr(status.message, i == 0 ? "longer than" : "exit code 1"));
+        char pidPath[512], *pid = NULL;
+        size_t length;
+        snprintf(pidPath, sizeof pidPath, "%s/pid", fake);
+        status = readWholeFile(pidPath, 100, &pid, &length);
+        assert_true(statusIsOk(&status));
+        bool alive = true;
+        for (int j = 0; j < 200 && alive; j++) {
+            usleep(10000);
+            alive = isRunning(atoi(pid));
+        }
+        assert_false(alive);
+        free(pid);
+        removeFolder(fake);
+        free(fake);
+    }
     setenv("PATH", path, 1);
     free(path);
     assertNothingLeft(surroundings, 0);
