@@ -22,27 +22,66 @@ typedef struct Export {
     PovFinish finish;
 } Export;
 
-/* The command that renders the file, its name made of harmless characters only. */
-static void writeHeader(const Scene *scene, const char *name, double scale, Text *pov)
+/* The length in bytes of the character at the start of name if a line of a comment can show it, else 0: no
+ * control character, and none of U+2000..U+207F, which end lines or turn the direction of writing. */
+static size_t shownLength(const char *name)
+{
+    size_t length = utf8Length(name);
+    unsigned char first = (unsigned char)name[0], second = (unsigned char)(length > 1 ? name[1] : 0);
+    if (first < ' ' || first == 0x7F || (first == 0xC2 && second < 0xA0) ||
+        (first == 0xE2 && (second == 0x80 || second == 0x81)))
+        return 0;
+    return length;
+}
+
+/* Append a file name as one word of the shell, with _ for each byte that cannot be shown. */
+static void appendQuoted(Text *pov, const char *name, size_t length)
+{
+    textAppend(pov, "'");
+    for (size_t i = 0; i < length;) {
+        size_t shown = shownLength(name + i);
+        if (name[i] == '\'')
+            textAppend(pov, "'\\''");
+        else if (shown > 0)
+            textAppendBytes(pov, name + i, shown);
+        else
+            textAppend(pov, "_");
+        i += shown > 0 ? shown : 1;
+    }
+    textAppend(pov, "'");
+}
+
+/* The command that renders the file. POV-Ray 3.7 opens no file whose name has spaces, quotes or letters
+ * outside ASCII, so the shell opens those. */
+static void writeCommand(const Scene *scene, const char *name, Text *pov)
 {
     const char *slash = strrchr(name, '/');
     const char *base = slash != NULL ? slash + 1 : name;
+    if (*base == '\0')
+        base = "scene.pov";
     size_t length = strlen(base);
-    if (length > 4 && strcmp(base + length - 4, ".pov") == 0)
-        length -= 4;
-    char safe[64] = "scene";
-    size_t kept = length < sizeof safe - 1 ? length : sizeof safe - 1;
-    for (size_t i = 0; i < kept; i++) {
-        bool harmless =
-            strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.", base[i]) != NULL;
-        safe[i] = harmless && !(i == 0 && base[i] == '-') ? base[i] : '_';
+    int stem = (int)(length > 4 && strcmp(base + length - 4, ".pov") == 0 ? length - 4 : length);
+    bool plain = base[0] != '-' && strspn(base, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                "0123456789_-.") == length;
+    if (plain)
+        textAppendFormat(pov, "// povray +I%s +O%.*s.png", base, stem, base);
+    else
+        textAppend(pov, "// povray +I/dev/stdin +O-");
+    textAppendFormat(pov, " +W%d +H%d +FN%d File_Gamma=%s -A -D", scene->image.width, scene->image.height,
+                     scene->image.bitDepth, scene->image.encoding == ENCODING_LINEAR ? "1.0" : "srgb");
+    if (!plain) {
+        textAppend(pov, " <");
+        appendQuoted(pov, base, length);
+        textAppend(pov, " >");
+        appendQuoted(pov, base, (size_t)stem);
+        textAppend(pov, ".png");
     }
-    if (kept > 0)
-        safe[kept] = '\0';
+    textAppend(pov, "\n");
+}
 
-    textAppendFormat(pov, "// povray +I%s.pov +O%s.png +W%d +H%d +FN%d File_Gamma=%s -A -D\n", safe, safe,
-                     scene->image.width, scene->image.height, scene->image.bitDepth,
-                     scene->image.encoding == ENCODING_LINEAR ? "1.0" : "srgb");
+static void writeHeader(const Scene *scene, const char *name, double scale, Text *pov)
+{
+    writeCommand(scene, name, pov);
     textAppend(pov, "// Written by eclairage: the same picture, to the last bits of 16.\n");
     if (scale != 1) {
         textAppend(pov, "// All lengths are multiplied by ");

@@ -7,7 +7,8 @@
 #include "raytracer.h"
 
 /* Append the .pov. It states everything explicitly, includes nothing and renders alone; its first
- * comment is the command to render it as name (a file name, made harmless in the comment).
+ * comment is the command that renders it from the file called name, for a shell in that file's folder;
+ * characters that could end the comment are replaced in it.
  * STATUS_INEXPRESSIBLE, with the line of the scene where there is one, for what POV-Ray cannot say. */
 Status exportPov(const Scene *scene, const char *name, Text *pov);
 

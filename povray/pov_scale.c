@@ -3,8 +3,10 @@
 
 #include "povray/pov_texture.h"
 
-/* Parts that are a hundred times POV-Ray's shadow tolerance need no help. */
+/* Parts that are a hundred times POV-Ray's shadow tolerance need no help, nor does a camera that is a
+ * hundred times its tolerance for hits away from a surface, which is a tenth of that. */
 static const double SMALLEST_PART = 0.1;
+static const double PART_PER_CLEARANCE = 10;
 static const double FARTHEST_PART = 1e4;
 /* Even for the sake of small parts nothing is moved farther away; POV-Ray's limit is 1e7. */
 static const double FARTHEST_EXPORTED = 0x1p22;
@@ -15,12 +17,115 @@ static const double FARTHEST_EXPORTED = 0x1p22;
 static const double SMALLEST_OF_DELICATE = 128;
 static const double FARTHEST_OF_DELICATE = 0x1p13;
 
+/* The smallest of the three sizes of a box that is not that of something flat. */
+static double partSize(Bounds bounds)
+{
+    Vector3D size = subVectors(bounds.max, bounds.min);
+    double flat = 1e-6 * largestCoordinate(size), smallest = INFINITY;
+    const double sizes[3] = {size.x, size.y, size.z};
+    for (int i = 0; i < 3; i++)
+        if (sizes[i] > flat)
+            smallest = fmin(smallest, sizes[i]);
+    return smallest;
+}
+
 /* The distance from the camera to the farthest corner of a box. */
 static double farthestCorner(Bounds bounds, Vector3D camera)
 {
     Vector3D toMin = subVectors(bounds.min, camera), toMax = subVectors(bounds.max, camera);
     return norm(createVector(fmax(fabs(toMin.x), fabs(toMax.x)), fmax(fabs(toMin.y), fabs(toMax.y)),
                              fmax(fabs(toMin.z), fabs(toMax.z))));
+}
+
+/* How far away a bounded shape can be seen. */
+static double farthestSeen(const Object *object, Bounds bounds, Vector3D camera)
+{
+    double corner = farthestCorner(bounds, camera);
+    if (object->kind != SHAPE_SPHERE || object->transform != NULL)
+        return corner;
+    /* From outside, no farther than where a line through the camera touches the sphere: of the globe
+     * one stands on, up to the horizon. (f - r)(f + r) keeps the digits that f^2 - r^2 would lose. */
+    double f = norm(subVectors(object->sphere.center, camera)), r = object->sphere.radius;
+    return f > r ? fmin(corner, sqrt((f - r) * (f + r))) : corner;
+}
+
+/* The distance to the surface along the direction; INFINITY on a miss. */
+static double probe(const Object *object, Vector3D camera, Vector3D direction, Vector3D *normal)
+{
+    Ray ray = createRay(camera, normalize(direction));
+    Intersection hit;
+    if (!intersectsObject(&ray, object, &hit))
+        return INFINITY;
+    *normal = hit.normal;
+    return hit.distance;
+}
+
+/* The distance to the surface along the ray; INFINITY on a miss. */
+static double distanceAlong(const Object *object, Ray ray)
+{
+    Vector3D normal;
+    return probe(object, ray.origin, ray.direction, &normal);
+}
+
+/* The distance from the camera to the nearest point of the surface, above 0: exact for spheres, planes and
+ * blocks, since one of the probes goes straight there. */
+static double clearance(const Object *object, Vector3D camera)
+{
+    Vector3D directions[9] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    int count = 6;
+    Bounds bounds;
+    if (objectBounds(object, &bounds)) {
+        Vector3D nearest = createVector(fmin(fmax(camera.x, bounds.min.x), bounds.max.x),
+                                        fmin(fmax(camera.y, bounds.min.y), bounds.max.y),
+                                        fmin(fmax(camera.z, bounds.min.z), bounds.max.z));
+        Vector3D middle = multVector(addVectors(bounds.min, bounds.max), 0.5);
+        directions[count++] = subVectors(nearest, camera);
+        directions[count++] = subVectors(middle, camera);
+        directions[count++] = subVectors(camera, middle);
+    }
+    double shortest = INFINITY;
+    for (int i = 0; i < count; i++) {
+        Vector3D normal = {0, 0, 0};
+        shortest = fmin(shortest, probe(object, camera, directions[i], &normal));
+        /* From a point of a plane, its normal leads straight to it. */
+        if (largestCoordinate(normal) > 0)
+            shortest = fmin(shortest, probe(object, camera, multVector(normal, -1), &normal));
+    }
+    return shortest;
+}
+
+/* How far away the picture shows a shape without end: in each row, at the pixels nearest to the horizon. */
+static double farthestInPicture(const Object *object, const Scene *scene)
+{
+    int width = scene->image.width, height = scene->image.height;
+    CameraFrame frame = cameraFrame(&scene->camera, width, height);
+    double farthest = 0;
+    for (int y = 0; y < height; y++) {
+        /* Find by bisection where the row leaves the shape, if it does. */
+        double distances[2];
+        int low = 0, high = width - 1;
+        for (int end = 0; end < 2; end++) {
+            Ray ray = cameraRay(&frame, (end == 0 ? low : high) + 0.5, y + 0.5, width, height);
+            distances[end] = distanceAlong(object, ray);
+        }
+        bool lowMeets = isfinite(distances[0]);
+        while (lowMeets != isfinite(distances[1]) && high - low > 1) {
+            int middle = low + (high - low) / 2;
+            Ray ray = cameraRay(&frame, middle + 0.5, y + 0.5, width, height);
+            double t = distanceAlong(object, ray);
+            if (isfinite(t) == lowMeets) {
+                low = middle;
+                distances[0] = t;
+            } else {
+                high = middle;
+                distances[1] = t;
+            }
+        }
+        for (int end = 0; end < 2; end++)
+            if (isfinite(distances[end]))
+                farthest = fmax(farthest, distances[end]);
+    }
+    return farthest;
 }
 
 static bool hasMesh(const Object *object)
@@ -33,39 +138,37 @@ static bool hasMesh(const Object *object)
 
 double povScale(const Scene *scene)
 {
-    /* Find the smallest part of the scene and how far its farthest part is from the camera. */
-    double smallest = INFINITY, farthest = 0;
+    /* Find the smallest part of the scene and how far its farthest part is from the camera. Lights may be
+     * anywhere: POV-Ray's limit is one for surfaces. */
+    double smallest = INFINITY, farthest = 0, horizon = 0;
     for (size_t i = 0; i < scene->objectCount; i++) {
         const Object *object = &scene->objects[i];
         Bounds bounds;
         if (objectBounds(object, &bounds)) {
-            Vector3D size = subVectors(bounds.max, bounds.min);
-            smallest = fmin(smallest, fmin(size.x, fmin(size.y, size.z)));
-            farthest = fmax(farthest, farthestCorner(bounds, scene->camera.position));
+            smallest = fmin(smallest, partSize(bounds));
+            farthest = fmax(farthest, farthestSeen(object, bounds, scene->camera.position));
+        } else {
+            horizon = fmax(horizon, farthestInPicture(object, scene));
         }
+        smallest = fmin(smallest, PART_PER_CLEARANCE * clearance(object, scene->camera.position));
     }
-    for (size_t i = 0; i < scene->lightCount; i++)
-        if (scene->lights[i].kind != LIGHT_DIRECTIONAL)
-            farthest = fmax(farthest, norm(subVectors(scene->lights[i].position, scene->camera.position)));
-
-    /* A scene of planes only is as large as its lights are far. */
-    if (!isfinite(smallest))
-        smallest = farthest;
-    if (!(smallest > 0) || !isfinite(farthest) || !(farthest > 0))
+    if (!(smallest > 0) || !isfinite(smallest) || !isfinite(farthest))
         return 1;
     bool isDelicate = false;
     for (size_t i = 0; i < scene->objectCount && !isDelicate; i++)
         isDelicate = hasMesh(&scene->objects[i]) || transmissivePart(scene, &scene->objects[i]) != NULL;
-    if (!isDelicate && smallest >= SMALLEST_PART && farthest <= FARTHEST_PART)
+    if (!isDelicate && smallest >= SMALLEST_PART && farthest <= FARTHEST_PART && horizon <= FARTHEST_EXPORTED)
         return 1;
 
     /* Bring the smallest part to a size of 1 to 2, or more of a delicate scene, and the farthest within
-     * reach. */
+     * reach. A horizon may limit how much the scene grows, but is not worth making small parts smaller. */
     double scale = exp2(-floor(log2(smallest)));
+    while (scale > 1 && horizon * scale > FARTHEST_EXPORTED)
+        scale /= 2;
     while (farthest * scale > FARTHEST_EXPORTED)
         scale /= 2;
     while (isDelicate && smallest * scale < SMALLEST_OF_DELICATE &&
-           farthest * scale * 2 <= FARTHEST_OF_DELICATE)
+           farthest * scale * 2 <= FARTHEST_OF_DELICATE && horizon * scale * 2 <= FARTHEST_EXPORTED)
         scale *= 2;
     return scale;
 }

@@ -18,6 +18,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -66,10 +67,26 @@ static double monotonicSeconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+enum {
+    CANNOT_START = 127 /* how the child ends when it cannot become POV-Ray */
+};
+
+/* The largest file POV-Ray may write, in bytes: a run that says the same line for ever must not fill the
+ * disk. Its largest ones are the state file and the picture, with some 20 and 6 bytes a pixel. */
+static struct rlimit fileLimit(const PovraySettings *settings)
+{
+    struct rlimit limit = {RLIM_INFINITY, RLIM_INFINITY};
+    getrlimit(RLIMIT_FSIZE, &limit);
+    rlim_t enough = ((rlim_t)64 << 20) + 64 * (rlim_t)settings->width * (rlim_t)settings->height;
+    if (limit.rlim_cur > enough)
+        limit.rlim_cur = enough;
+    return limit;
+}
+
 /* Start the program in the folder with its output in the log; 0 on failure. Between fork and exec only
  * what is safe in a program with threads. */
 static pid_t startIn(const char *folder, const char *program, char *const arguments[],
-                     char *const environment[])
+                     char *const environment[], const struct rlimit *largestFile)
 {
     pid_t child = fork();
     if (child != 0)
@@ -78,13 +95,14 @@ static pid_t startIn(const char *folder, const char *program, char *const argume
     setpgid(0, 0);
     int null = open("/dev/null", O_RDONLY);
     if (chdir(folder) != 0 || null < 0)
-        _exit(127);
+        _exit(CANNOT_START);
     int log = open("log", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    if (log < 0 || dup2(null, 0) < 0 || dup2(log, 1) < 0 || dup2(log, 2) < 0)
-        _exit(127);
+    if (log < 0 || dup2(null, 0) < 0 || dup2(log, 1) < 0 || dup2(log, 2) < 0 ||
+        setrlimit(RLIMIT_FSIZE, largestFile) != 0)
+        _exit(CANNOT_START);
     signal(SIGPIPE, SIG_DFL);
     execve(program, arguments, environment);
-    _exit(127);
+    _exit(CANNOT_START);
 }
 
 /* Wait until the process ends, looking for a cancel and at the clock; it is killed for either.
@@ -93,9 +111,16 @@ static Status waitFor(pid_t child, double timeoutSeconds, int *ended)
 {
     double deadline = monotonicSeconds() + timeoutSeconds;
     for (;;) {
-        pid_t result = waitpid(child, ended, WNOHANG);
-        if (result == child)
+        /* Look first and reap later: until then no other group can have its number, and what it started
+         * and left running is ended safely. */
+        siginfo_t seen = {0};
+        int result = waitid(P_PID, (id_t)child, &seen, WEXITED | WNOHANG | WNOWAIT);
+        if (result == 0 && seen.si_pid == child) {
+            kill(-child, SIGKILL);
+            while (waitpid(child, ended, 0) < 0 && errno == EINTR)
+                continue;
             return statusOk();
+        }
         if (result < 0 && errno != EINTR)
             return statusError(STATUS_POVRAY, "cannot wait for POV-Ray: %s", strerror(errno));
         bool late = monotonicSeconds() > deadline;
@@ -174,11 +199,17 @@ static Status runIn(const char *folder, const PovraySettings *settings, bool ant
     Status status = statusOutOfMemory();
     if (!path.failed && !home.failed && !ini.failed && !log.failed) {
         char *environment[] = {path.data, home.data, ini.data, "LC_ALL=C", NULL};
-        pid_t child = startIn(folder, program, arguments, environment);
+        struct rlimit largestFile = fileLimit(settings);
+        pid_t child = startIn(folder, program, arguments, environment, &largestFile);
         int ended = 0;
         status = child != 0 ? waitFor(child, settings->timeoutSeconds, &ended)
                             : statusError(STATUS_POVRAY, "cannot start POV-Ray: %s", strerror(errno));
-        if (statusIsOk(&status) && !(WIFEXITED(ended) && WEXITSTATUS(ended) == 0)) {
+        if (statusIsOk(&status) && WIFEXITED(ended) && WEXITSTATUS(ended) == CANNOT_START) {
+            status = statusError(STATUS_POVRAY, "cannot start POV-Ray: is %s that program?", program);
+        } else if (statusIsOk(&status) && WIFSIGNALED(ended) && WTERMSIG(ended) == SIGXFSZ) {
+            status = statusError(STATUS_POVRAY, "POV-Ray wrote a file of more than %llu MB and was stopped",
+                                 (unsigned long long)(largestFile.rlim_cur >> 20));
+        } else if (statusIsOk(&status) && !(WIFEXITED(ended) && WEXITSTATUS(ended) == 0)) {
             char quote[600];
             quoteLog(log.data, quote);
             const char *how = WIFSIGNALED(ended) ? "was ended by signal" : "failed with exit code";
@@ -195,16 +226,33 @@ static Status runIn(const char *folder, const PovraySettings *settings, bool ant
     return status;
 }
 
+/* Read the picture that POV-Ray wrote; a wrong one is POV-Ray's failure, not the user's. */
+static Status readPicture(const char *path, const PovraySettings *settings, Image *image)
+{
+    Status status = readPng(path, image);
+    if (status.code == STATUS_IO && access(path, R_OK) != 0)
+        return statusError(STATUS_POVRAY, "POV-Ray wrote no picture");
+    if (status.code == STATUS_IO && strcmp(status.message, statusOutOfMemory().message) != 0)
+        return statusError(STATUS_POVRAY, "POV-Ray wrote a picture that cannot be read");
+    if (!statusIsOk(&status))
+        return status;
+    if (image->width == settings->width && image->height == settings->height &&
+        image->bitDepth == settings->bitDepth)
+        return statusOk();
+    status = statusError(
+        STATUS_POVRAY, "POV-Ray wrote a picture of %d x %d pixels and %d bits, not of %d x %d and %d",
+        image->width, image->height, image->bitDepth, settings->width, settings->height, settings->bitDepth);
+    freeImage(image);
+    return status;
+}
+
 /* Run and read the picture. */
 static Status drawIn(const char *folder, const PovraySettings *settings, const char *picture, bool antialias,
                      Image *image)
 {
     Status status = runIn(folder, settings, antialias);
-    if (!statusIsOk(&status))
-        return status;
-    status = readPng(picture, image);
-    if (status.code == STATUS_IO && access(picture, R_OK) != 0)
-        status = statusError(STATUS_POVRAY, "POV-Ray wrote no picture");
+    if (statusIsOk(&status))
+        status = readPicture(picture, settings, image);
     unlink(picture);
     return status;
 }
@@ -213,8 +261,6 @@ static Status drawIn(const char *folder, const PovraySettings *settings, const c
  * ((n^2 + 1) mean - middle) / n^2, into middle. */
 static void takeOutMiddle(const Image *mean, Image *middle, int n)
 {
-    if (mean->width != middle->width || mean->height != middle->height)
-        return;
     int64_t rays = (int64_t)n * n, largest = imageMaxSample(middle);
     size_t count = 3 * (size_t)middle->width * (size_t)middle->height;
     for (size_t i = 0; i < count; i++) {

@@ -20,7 +20,8 @@ Status findPovray(void);
 /* Render the text of a .pov into *image, which the caller frees. POV-Ray's own antialiasing adds the middle
  * of the pixel to the n x n samples, so with samples above 1 it runs twice, with and without, and the middle
  * is taken out again (MAPPING.md). STATUS_POVRAY when POV-Ray is missing, fails (with the end of what it
- * said) or takes too long; STATUS_INTERRUPTED when cancelled. Nothing is left behind: no process, no file. */
+ * said), takes too long, writes too much or another picture; STATUS_INTERRUPTED when cancelled. Nothing is
+ * left behind: no process, no file. */
 Status runPovray(const char *pov, const PovraySettings *settings, Image *image);
 
 #endif

@@ -33,8 +33,8 @@ const char *textString(const Text *text);
 /* Free it and make it empty again. */
 void textFree(Text *text);
 
-/* The length in bytes of the valid UTF-8 character at the start of a NUL-terminated string, or 0 where there is
- * none (RFC 3629, section 4). */
+/* The length in bytes of the valid UTF-8 character at the start of a NUL-terminated string, or 0 where there
+ * is none (RFC 3629, section 4). */
 size_t utf8Length(const char *string);
 
 enum {

@@ -77,10 +77,14 @@ static void appendTroffCommand(Text *text, const Command *command)
     appendTroffParagraphs(text, command->description);
     textAppend(text, ".PP\nExamples:\n");
     appendTroffExamples(text, command->examples);
-    textAppend(text, ".PP\nOptions:\n");
-    for (size_t i = 0; i < OPTION_COUNT; i++)
-        if ((OPTIONS[i].commands & command->bit) != 0 && OPTIONS[i].commands != ALL_COMMANDS)
-            appendTroffOption(text, &OPTIONS[i]);
+    bool any = false;
+    for (size_t i = 0; i < OPTION_COUNT; i++) {
+        if ((OPTIONS[i].commands & command->bit) == 0 || OPTIONS[i].commands == ALL_COMMANDS)
+            continue;
+        textAppend(text, any ? "" : ".PP\nOptions:\n");
+        appendTroffOption(text, &OPTIONS[i]);
+        any = true;
+    }
 }
 
 void writeManualPage(Text *text)

@@ -116,8 +116,8 @@ static Status statusOfDiagnostics(const Diagnostics *diagnostics)
         return statusOk();
     if (diagnostics->errors == 1)
         return statusErrorAt(STATUS_SCENE, first->line, first->column, "%s", first->message);
-    return statusErrorAt(STATUS_SCENE, first->line, first->column, "%s (and %zu more errors)", first->message,
-                         diagnostics->errors - 1);
+    return statusErrorAt(STATUS_SCENE, first->line, first->column, "%s (and %zu more error%s)",
+                         first->message, diagnostics->errors - 1, diagnostics->errors > 2 ? "s" : "");
 }
 
 /* path: of the scene, or NULL; the files it names are relative to its folder. */

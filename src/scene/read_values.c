@@ -55,6 +55,10 @@ void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, con
         textAppendFormat(&hint, "begin each %s with '- '", key->kinds->noun);
     else if (key->type == FORMAT_STEPS && value->kind == NODE_MAPPING)
         textAppendFormat(&hint, "begin each %s with '- '", key->mapping->name);
+    else if (key->type == FORMAT_COLOR && value->kind == NODE_SCALAR)
+        textAppend(&hint, "write how much red, green and blue it has, in brackets: red is [1, 0, 0]");
+    else if ((key->type == FORMAT_POINT || key->type == FORMAT_DIRECTION) && value->kind == NODE_SCALAR)
+        textAppend(&hint, "write the three numbers in brackets, such as [0, 1, 0]");
     reportError(reader, place, hint.length > 0 ? hint.data : NULL, "%s", textString(&message));
     textFree(&message);
     textFree(&hint);
@@ -158,7 +162,7 @@ static bool readNumbers(SceneReader *reader, const FormatKey *key, const char *c
 {
     if (list->count != count) {
         bool noCommas =
-            list->count == 1 && list->first->kind == NODE_SCALAR && strchr(list->first->text, ' ') != NULL;
+            list->count == 1 && list->first->kind == NODE_SCALAR && strpbrk(list->first->text, " ;") != NULL;
         Text names = {0};
         for (size_t i = 0; i < count; i++)
             textAppendFormat(&names, "%s%s", i > 0 ? ", " : "", components[i]);

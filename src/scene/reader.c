@@ -155,6 +155,10 @@ size_t reportUnknownKey(SceneReader *reader, const FormatMapping *format, const 
     if (key < formatKeyCount(format)) {
         suggestion.best = formatKey(format, key)->name;
         textAppendFormat(&hint, "write it as %s: value, with a space behind the ':'", suggestion.best);
+    } else if (keyNode->text[strspn(keyNode->text, "+-.")] >= '0' &&
+               keyNode->text[strspn(keyNode->text, "+-.")] <= '9') {
+        /* "{center: 0, 1, 0}" and "{radius: 1,5}" have numbers in the place of keys. */
+        textAppend(&hint, "write a list in brackets, such as [0, 1, 0], and 1.5 with a point");
     } else if (suggestion.best != NULL || format != &sceneFormat || !appendRightPlace(&hint, keyNode)) {
         char what[80];
         snprintf(what, sizeof what, "the keys of '%s' are", format->name);

@@ -62,14 +62,16 @@ load helpers
     folderHolds s.yaml
 }
 
-@test "POV-Ray draws the file with the command of its first comment" {
+@test "POV-Ray draws the file with the command of its first comment, whatever its name" {
     needs povray
     makeScene s.yaml
-    try 0 pov s.yaml -o s.pov --width 32
-    command=$(sed -n 's|^[ /*]*\(povray .*\)|\1|p' s.pov | head -n 1)
-    [ -n "$command" ]
-    HOME=$TMPDIR bash -c "$command" >"$out" 2>&1 || { cat "$out"; return 1; }
-    isPng s.png
     try 0 render -q s.yaml --width 32 -o ours.png
-    try 0 diff ours.png s.png --fail 0.004 --fail-percent 1
+    for name in s "l'été \"1\" \$x" -x; do
+        try 0 pov s.yaml -o "./$name.pov" --width 32
+        command=$(sed -n 's|^[ /*]*\(povray .*\)|\1|p' "./$name.pov" | head -n 1)
+        [ -n "$command" ]
+        HOME=$TMPDIR bash -c "$command" 2>"$err" || { cat "$err"; return 1; }
+        isPng "./$name.png"
+        try 0 diff ours.png "./$name.png" --fail 0.004 --fail-percent 1
+    done
 }

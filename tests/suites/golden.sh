@@ -23,7 +23,7 @@ for scene in scenes/course/*.yaml scenes/gallery/*.yaml; do
 done
 # No picture without its scene.
 count=$((count + 1))
-left=$(comm -3 <(ls tests/golden/pictures | sed 's/\.png$//' | sort) \
-    <(ls scenes/course scenes/gallery | sed -n 's/\.yaml$//p' | sort))
+left=$(comm -3 <(basename -as .png tests/golden/pictures/*.png | sort) \
+    <(basename -as .yaml scenes/course/*.yaml scenes/gallery/*.yaml | sort))
 [ -z "$left" ] && echo "ok $count - a picture for each scene" || echo "not ok $count - a picture for each scene: $left"
 echo "1..$count"

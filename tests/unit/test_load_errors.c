@@ -107,6 +107,22 @@ static void columnsCountCharacters(void **state)
     diagnosticsFree(&d);
 }
 
+static void theStatusSaysTheFirstErrorAndHowManyMore(void **state)
+{
+    (void)state;
+    const char *const yaml[] = {"a: 1\n", "a: 1\nb: 1\n", "a: 1\nb: 1\nc: 1\n"};
+    const char *const messages[] = {"unknown key 'a'", "unknown key 'a' (and 1 more error)",
+                                    "unknown key 'a' (and 2 more errors)"};
+    for (size_t i = 0; i < 3; i++) {
+        Scene scene;
+        Diagnostics d = {0};
+        Status status = loadSceneFromText(yaml[i], strlen(yaml[i]), &scene, &d);
+        assert_int_equal(status.code, STATUS_SCENE);
+        assert_string_equal(status.message, messages[i]);
+        diagnosticsFree(&d);
+    }
+}
+
 static void everyErrorIsCountedAndEachOnce(void **state)
 {
     (void)state;
@@ -497,6 +513,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(allErrorsAreFoundInOrder),
         cmocka_unit_test(columnsCountCharacters),
+        cmocka_unit_test(theStatusSaysTheFirstErrorAndHowManyMore),
         cmocka_unit_test(everyErrorIsCountedAndEachOnce),
         cmocka_unit_test(onlyCloseWordsAreSuggested),
         cmocka_unit_test(oneMistakeGivesOneError),

@@ -70,7 +70,12 @@ static void theFirstCommentIsTheCommand(void **state)
     scene.image.bitDepth = 16;
     scene.image.encoding = ENCODING_LINEAR;
     pov = exported(&scene, "x");
-    expected = "// povray +Ix.pov +Ox.png +W64 +H48 +FN16 File_Gamma=1.0 -A -D\n";
+    expected = "// povray +Ix +Ox.png +W64 +H48 +FN16 File_Gamma=1.0 -A -D\n";
+    assert_memory_equal(pov, expected, strlen(expected));
+    free(pov);
+    pov = exported(&scene, "l'\xC3\xA9t\xC3\xA9 1.pov");
+    expected = "// povray +I/dev/stdin +O- +W64 +H48 +FN16 File_Gamma=1.0 -A -D"
+               " <'l'\\''\xC3\xA9t\xC3\xA9 1.pov' >'l'\\''\xC3\xA9t\xC3\xA9 1'.png\n";
     assert_memory_equal(pov, expected, strlen(expected));
     free(pov);
     freeScene(&scene);
@@ -80,17 +85,20 @@ static void aNameCannotBecomeCode(void **state)
 {
     (void)state;
     Scene scene = shinySphere();
-    const char *names[] = {
-        "x\n#write(F,1)\n.pov", "x\r#error", "*/ sphere{", "$(rm -rf ~).pov", "-Ifoo;reboot",
-        "\xE2\x80\xA8.pov",     ""};
+    const char *names[] = {"x\n#write(F,1)\n.pov", "x\r#error",       "*/ sphere{",
+                           "$(rm -rf ~).pov",      "-Ifoo;reboot",    "\xE2\x80\xA8.pov",
+                           "\xC2\x85.pov",         "\x1B[2J\xE9.pov", ""};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char *pov = exported(&scene, names[i]);
         char *end = strchr(pov, '\n');
         assert_memory_equal(end, "\n// Written by", 14);
         *end = '\0';
-        assert_int_equal(
-            strspn(pov + 2, " +=-_.ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"),
-            strlen(pov + 2));
+        assert_null(strpbrk(pov, "\r\f\v\x1B\xE2"));
+        assert_null(strstr(pov, "\xC2\x85"));
+        /* What is not harmless stands in the shell's quotes. */
+        size_t bare = strspn(pov, " +=-_./ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789");
+        if (pov[bare] != '\0')
+            assert_memory_equal(pov + bare, "<'", 2);
         assert_null(strstr(pov, "+I-"));
         free(pov);
     }
@@ -140,6 +148,54 @@ static void sizesThatPovraySeesWell(void **state)
     freeScene(&scene);
     Scene empty = createScene();
     assert_true(povScale(&empty) == 1);
+}
+
+/* What the camera stands on, what it looks along and where the lights are. */
+static void sizesForTheCamera(void **state)
+{
+    (void)state;
+    /* A camera a hair from a surface would look through it; the kind of surface and the side do not matter.
+     */
+    for (int kind = 0; kind < 4; kind++) {
+        Scene close = createScene();
+        Vector3D corner = createVector(-1e-6, -1e-6, -2);
+        if (kind == 0)
+            addSphereToScene(&close, createSphere(createVector(2, -2, 1), 3 - 1e-6, defaultMaterial()));
+        else if (kind == 1)
+            addPlaneToScene(&close,
+                            createPlane(createVector(1e-6, 0, 0), createVector(3, 1, -2), defaultMaterial()));
+        else if (kind == 2)
+            addBoxToScene(&close, createBox(createVector(-5, -4, -3), corner, defaultMaterial()));
+        else
+            addBoxToScene(&close,
+                          createBox(createVector(-5, -4, -3), createVector(1e-6, 1, 1), defaultMaterial()));
+        close.camera.position = kind == 2 ? createVector(0, 0, -2.5) : createVector(0, 0, 0);
+        double scale = povScale(&close);
+        assert_true(1e-6 * scale >= 1e-2);
+        assert_true(scale <= 0x1p22);
+        freeScene(&close);
+    }
+
+    /* Nor is a plane to end before the horizon of the picture for the sake of a thin block. */
+    Scene flat = createScene();
+    flat.image.width = 96;
+    flat.image.height = 72;
+    flat.camera.position = createVector(0, 1, 0);
+    addPlaneToScene(&flat, createPlane(createVector(0, 0, 0), createVector(0, 1, 0), defaultMaterial()));
+    assert_true(povScale(&flat) == 1);
+    addBoxToScene(&flat, createBox(createVector(-1, 0, -3), createVector(1, 1e-9, -2), defaultMaterial()));
+    double horizon = 72 / (2 * tan(30 * 3.14159265358979 / 180) * 0.5); /* half a pixel below it */
+    assert_true(povScale(&flat) * horizon <= 0x1p22);
+    assert_true(povScale(&flat) > 0x1p13);
+    freeScene(&flat);
+
+    /* A far light changes nothing; of a globe only what is before the horizon counts. */
+    Scene globe = shinySphere();
+    addLightToScene(&globe, createLight(createVector(1e9, 1e9, 0), createColor(1, 1, 1)));
+    assert_true(povScale(&globe) == 1);
+    addSphereToScene(&globe, createSphere(createVector(0, -1e11 - 2, 0), 1e11, defaultMaterial()));
+    assert_true(povScale(&globe) >= 0.25);
+    freeScene(&globe);
 }
 
 /* What is left in a folder but . and .. */
@@ -243,27 +299,69 @@ static void failureAndTimeoutAreTold(void **state)
     removeFolder(fake);
     free(fake);
 
-    /* The program and what it started are ended. */
-    fake = fakePovray("#!/bin/sh\n/bin/sleep 60 &\necho $! > ${0%/*}/pid\nwait\n");
-    PovraySettings hasty = small;
-    hasty.timeoutSeconds = 0.2;
-    status = runPovray("", &hasty, &image);
+    /* A picture that is none, or another one, is POV-Ray's failure and names no file of ours. */
+    fake = fakePovray("#!/bin/sh\necho no >picture.png\n");
+    status = runPovray("", &small, &image);
     assert_int_equal(status.code, STATUS_POVRAY);
-    assert_non_null(strstr(status.message, "longer than"));
-    char pidPath[512], *pid = NULL;
-    size_t length;
-    snprintf(pidPath, sizeof pidPath, "%s/pid", fake);
-    status = readWholeFile(pidPath, 100, &pid, &length);
-    assert_true(statusIsOk(&status));
-    bool alive = true;
-    for (int i = 0; i < 200 && alive; i++) {
-        usleep(10000);
-        alive = isRunning(atoi(pid));
-    }
-    assert_false(alive);
-    free(pid);
+    assert_non_null(strstr(status.message, "cannot be read"));
+    assert_null(strstr(status.message, "picture.png"));
     removeFolder(fake);
     free(fake);
+
+    fake = fakePovray("#!/bin/sh\nexec /bin/cat ${0%/*}/other.png >picture.png\n");
+    char otherPath[512];
+    snprintf(otherPath, sizeof otherPath, "%s/other.png", fake);
+    Image other;
+    status = createImage(small.width + 1, small.height, small.bitDepth, small.encoding, &other);
+    assert_true(statusIsOk(&status));
+    status = writePng(otherPath, &other);
+    assert_true(statusIsOk(&status));
+    freeImage(&other);
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "65 x"));
+    removeFolder(fake);
+    free(fake);
+
+    fake = fakePovray("no program\n");
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "cannot start"));
+    removeFolder(fake);
+    free(fake);
+
+    /* What is said without end does not fill the disk. */
+    fake = fakePovray("#!/bin/sh\nexec /usr/bin/yes\n");
+    status = runPovray("", &small, &image);
+    assert_int_equal(status.code, STATUS_POVRAY);
+    assert_non_null(strstr(status.message, "64 MB"));
+    removeFolder(fake);
+    free(fake);
+
+    /* The program and what it started are ended, whether it takes too long or ends by itself. */
+    for (int i = 0; i < 2; i++) {
+        fake = fakePovray(i == 0 ? "#!/bin/sh\n/bin/sleep 60 &\necho $! > ${0%/*}/pid\nwait\n"
+                                 : "#!/bin/sh\n/bin/sleep 60 &\necho $! > ${0%/*}/pid\nexit 1\n");
+        PovraySettings hasty = small;
+        hasty.timeoutSeconds = i == 0 ? 0.2 : 20;
+        status = runPovray("", &hasty, &image);
+        assert_int_equal(status.code, STATUS_POVRAY);
+        assert_non_null(strstr(status.message, i == 0 ? "longer than" : "exit code 1"));
+        char pidPath[512], *pid = NULL;
+        size_t length;
+        snprintf(pidPath, sizeof pidPath, "%s/pid", fake);
+        status = readWholeFile(pidPath, 100, &pid, &length);
+        assert_true(statusIsOk(&status));
+        bool alive = true;
+        for (int j = 0; j < 200 && alive; j++) {
+            usleep(10000);
+            alive = isRunning(atoi(pid));
+        }
+        assert_false(alive);
+        free(pid);
+        removeFolder(fake);
+        free(fake);
+    }
     setenv("PATH", path, 1);
     free(path);
     assertNothingLeft(surroundings, 0);
@@ -344,11 +442,11 @@ static void theRealOnesErrorIsQuoted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbersAreWrittenInFull),  cmocka_unit_test(theFirstCommentIsTheCommand),
-        cmocka_unit_test(aNameCannotBecomeCode),    cmocka_unit_test(refusesWhatItCannotSay),
-        cmocka_unit_test(sizesThatPovraySeesWell),  cmocka_unit_test(missingPovraySaysHowToInstallIt),
-        cmocka_unit_test(failureAndTimeoutAreTold), cmocka_unit_test(theRealOneDrawsOurPicture),
-        cmocka_unit_test(theRealOnesErrorIsQuoted),
+        cmocka_unit_test(numbersAreWrittenInFull),         cmocka_unit_test(theFirstCommentIsTheCommand),
+        cmocka_unit_test(aNameCannotBecomeCode),           cmocka_unit_test(refusesWhatItCannotSay),
+        cmocka_unit_test(sizesThatPovraySeesWell),         cmocka_unit_test(sizesForTheCamera),
+        cmocka_unit_test(missingPovraySaysHowToInstallIt), cmocka_unit_test(failureAndTimeoutAreTold),
+        cmocka_unit_test(theRealOneDrawsOurPicture),       cmocka_unit_test(theRealOnesErrorIsQuoted),
     };
     return cmocka_run_group_tests_name("povray", tests, NULL, NULL);
 }
