@@ -185,42 +185,10 @@ static double meshMagnitude(const Object *object)
     return fmax(largestCoordinate(bounds->min), largestCoordinate(bounds->max));
 }
 
-/* ---- POV-Ray ---- */
-
+/* A closed mesh may be a part of CSG, for all that is known here. */
 static void meshWritePov(const Object *object, double scale, Text *pov)
 {
-    const MeshData *mesh = object->mesh.data;
-    textAppend(pov, "mesh2 {\n  vertex_vectors { ");
-    textAppendFormat(pov, "%zu", mesh->vertexCount);
-    for (size_t i = 0; i < mesh->vertexCount; i++) {
-        textAppend(pov, ",\n    ");
-        textAppendPovVector(pov, mesh->vertices[i], scale);
-    }
-    textAppend(pov, " }\n");
-    if (mesh->isSmooth) {
-        textAppendFormat(pov, "  normal_vectors { %zu", mesh->normalCount);
-        for (size_t i = 0; i < mesh->normalCount; i++) {
-            textAppend(pov, ",\n    ");
-            textAppendPovVector(pov, mesh->normals[i], 1);
-        }
-        textAppend(pov, " }\n");
-    }
-    textAppendFormat(pov, "  face_indices { %zu", mesh->triangleCount);
-    for (size_t i = 0; i < mesh->triangleCount; i++) {
-        const uint32_t *v = mesh->triangles[i].vertices;
-        textAppendFormat(pov, ",\n    <%u, %u, %u>", v[0], v[1], v[2]);
-    }
-    textAppend(pov, " }\n");
-    if (mesh->isSmooth) {
-        textAppendFormat(pov, "  normal_indices { %zu", mesh->triangleCount);
-        for (size_t i = 0; i < mesh->triangleCount; i++) {
-            const uint32_t *n = mesh->triangles[i].normals;
-            textAppendFormat(pov, ",\n    <%u, %u, %u>", n[0], n[1], n[2]);
-        }
-        textAppend(pov, " }\n");
-    }
-    if (mesh->isClosed)
-        textAppend(pov, "  inside_vector <0.5127, 0.7441, 0.4283>\n");
+    writeMeshPov(object, scale, object->mesh.data->isClosed, pov);
 }
 
 const Shape meshShape = {.name = "mesh",

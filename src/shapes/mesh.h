@@ -9,6 +9,7 @@
 #define ECLAIRAGE_SHAPES_MESH_H
 
 #include "base/status.h"
+#include "base/text.h"
 #include "shapes/intersection.h"
 
 #include <stdbool.h>
@@ -41,6 +42,7 @@ typedef struct MeshData {
     bool isClosed; /* every edge belongs to exactly two triangles, which run along it in opposite directions,
                     * so the mesh has an inside */
     Bounds bounds;
+    double meanEdge; /* the mean length of the triangles' edges: how fine its detail is */
 } MeshData;
 
 typedef struct Mesh {
@@ -64,6 +66,11 @@ Status parseObjMesh(const char *text, size_t length, bool smooth, MeshData **mes
  * The arrays come from malloc and belong to the mesh, which the caller frees with freeMesh, also after a
  * failure: STATUS_SCENE where nothing but degenerate triangles is left, STATUS_INTERRUPTED, out of memory. */
 Status buildMesh(MeshData *mesh);
+
+/* Write a mesh object for POV-Ray, as Shape's writePov does. solid: what has an inside there, for a closed
+ * mesh that is a part of CSG or contains the camera; the numbers are then single precision. Else the exact
+ * surface, which has no inside; glass is right with it too. See mesh_pov.c. */
+void writeMeshPov(const struct Object *object, double scale, bool solid, Text *pov);
 
 /* Free it and all in it; NULL is fine. */
 void freeMesh(MeshData *mesh);

@@ -32,7 +32,7 @@ void dropDegenerateTriangles(MeshData *mesh);
 /* Of a smooth mesh: bring normals to unit length and work out those that are absent. */
 Status completeNormals(MeshData *mesh);
 
-/* Set nodes and bounds; triangles are reordered. There is at least one. */
+/* Set nodes, bounds and meanEdge; triangles are reordered. There is at least one. */
 Status buildMeshTree(MeshData *mesh);
 
 /* ---- The tree ---- */

@@ -232,12 +232,15 @@ Status buildMeshTree(MeshData *mesh)
         return statusOutOfMemory();
     }
 
-    /* Find the box of each triangle, and of all. */
+    /* Find the box of each triangle and of all, and the mean edge. */
     Bounds *all = &mesh->bounds;
     *all = (Bounds){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    double edges = 0;
     for (size_t i = 0; i < count; i++) {
         Vector3D p[3];
         meshCorners(mesh, i, p);
+        for (int j = 0; j < 3; j++)
+            edges += norm(subVectors(p[(j + 1) % 3], p[j]));
         Vector3D low = createVector(fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)),
                                     fmin(p[0].z, fmin(p[1].z, p[2].z)));
         Vector3D high = createVector(fmax(p[0].x, fmax(p[1].x, p[2].x)), fmax(p[0].y, fmax(p[1].y, p[2].y)),
@@ -248,6 +251,8 @@ Status buildMeshTree(MeshData *mesh)
         all->min = createVector(fmin(all->min.x, low.x), fmin(all->min.y, low.y), fmin(all->min.z, low.z));
         all->max = createVector(fmax(all->max.x, high.x), fmax(all->max.y, high.y), fmax(all->max.z, high.z));
     }
+
+    mesh->meanEdge = edges / (3 * (double)count);
 
     /* Build, and put the triangles in the order of the leaves. */
     buildNode(&builder, 0, count, 0);

@@ -63,13 +63,15 @@ static inline bool intersectTriangle(const ShearedRay *ray, Vector3D a, Vector3D
                                      TriangleHit *hit)
 {
     /* Move the origin of the ray to 0 and its direction to the z axis. */
-    a = subVectors(a, ray->origin);
-    b = subVectors(b, ray->origin);
-    c = subVectors(c, ray->origin);
-    double az = coordinateOf(a, ray->z), bz = coordinateOf(b, ray->z), cz = coordinateOf(c, ray->z);
-    double ax = coordinateOf(a, ray->x) - ray->shearX * az, ay = coordinateOf(a, ray->y) - ray->shearY * az;
-    double bx = coordinateOf(b, ray->x) - ray->shearX * bz, by = coordinateOf(b, ray->y) - ray->shearY * bz;
-    double cx = coordinateOf(c, ray->x) - ray->shearX * cz, cy = coordinateOf(c, ray->y) - ray->shearY * cz;
+    Vector3D toA = subVectors(a, ray->origin), toB = subVectors(b, ray->origin);
+    Vector3D toC = subVectors(c, ray->origin);
+    double az = coordinateOf(toA, ray->z), bz = coordinateOf(toB, ray->z), cz = coordinateOf(toC, ray->z);
+    double ax = coordinateOf(toA, ray->x) - ray->shearX * az,
+           ay = coordinateOf(toA, ray->y) - ray->shearY * az;
+    double bx = coordinateOf(toB, ray->x) - ray->shearX * bz,
+           by = coordinateOf(toB, ray->y) - ray->shearY * bz;
+    double cx = coordinateOf(toC, ray->x) - ray->shearX * cz,
+           cy = coordinateOf(toC, ray->y) - ray->shearY * cz;
 
     /* Ask on which side of each edge 0 lies: inside, it is the same side of all. */
     double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
@@ -89,7 +91,7 @@ static inline bool intersectTriangle(const ShearedRay *ray, Vector3D a, Vector3D
      * shares. */
     Vector3D normal = normalize(cross(subVectors(b, a), subVectors(c, a)));
     double slope = dot(normal, ray->direction);
-    hit->distance = fabs(slope) > RAY_TRIANGLE_PARALLEL ? dot(normal, a) / slope
+    hit->distance = fabs(slope) > RAY_TRIANGLE_PARALLEL ? dot(normal, toA) / slope
                                                         : ray->shearZ * (u * az + v * bz + w * cz) / sum;
     hit->share1 = v / sum;
     hit->share2 = w / sum;
