@@ -21,7 +21,7 @@ static const double FARTHEST_OF_DELICATE = 0x1p13;
 static double partSize(Bounds bounds)
 {
     Vector3D size = subVectors(bounds.max, bounds.min);
-    double flat = 1e-6 * largestCoordinate(size), smallest = INFINITY;
+    double flat = 1e-12 * largestCoordinate(size), smallest = INFINITY;
     const double sizes[3] = {size.x, size.y, size.z};
     for (int i = 0; i < 3; i++)
         if (sizes[i] > flat)
