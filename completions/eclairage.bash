@@ -32,7 +32,7 @@ _eclairage()
       return
       ;;
     --model)
-      mapfile -t COMPREPLY < <(compgen -W 'simple lambert phong' -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W 'simple lambert phong blinn_phong' -- "$word")
       return
       ;;
     --samples)

@@ -118,8 +118,8 @@ void freeScene(Scene *scene);
  * out. */
 void *allocateInScene(Scene *scene, size_t size);
 
-/* Let the scene own a mesh, so that it is freed with it: any number of objects may share it. False when memory
- * runs out, and then it is still the caller's. */
+/* Let the scene own a mesh, so that it is freed with it: any number of objects may share it. False when
+ * memory runs out, and then it is still the caller's. */
 bool keepMeshInScene(Scene *scene, MeshData *mesh);
 
 /* Add a copy, which from then on owns what the object owns. False when memory runs out, and then the scene is

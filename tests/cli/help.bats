@@ -111,7 +111,7 @@ completes() {
     [ "$(completes '')" = "--help --version check compare diff pov render schema " ]
     [ "$(completes render --wi)" = "--width " ]
     [ "$(completes schema --)" = "--color --help --quiet --version " ]
-    [ "$(completes render --model '')" = "lambert phong simple " ]
+    [ "$(completes render --model '')" = "blinn_phong lambert phong simple " ]
     [ "$(completes render --color = a)" = "always auto " ]
     [ "$(completes render --color =)" = "always auto never " ]
     [ "$(completes render '')" = "a.yaml b.yml folder with space.yaml " ]

@@ -64,7 +64,6 @@ END
     refused "--threads must be a whole number from 1 to 256, not '0'" compare compare s.yaml --threads 0
     refused "--threads must be a whole number from 1 to 256, not '257'" render render s.yaml --threads 257
     refused "--samples must be a whole number from 1 to 64, not '65'" render render s.yaml --samples 65
-    refused "--samples 2 does not exist yet in this version; only --samples 1" render render s.yaml --samples 2
     refused "--fail must be a number from 0 to 1, not '1.01'" diff diff a b --fail 1.01
     refused "--fail must be a number from 0 to 1, not '-1e-9'" diff diff a b --fail -1e-9
     refused "--fail must be a number from 0 to 1, not 'nan'" diff diff a b --fail nan
@@ -77,10 +76,8 @@ END
 }
 
 @test "choices: all of them are in the message" {
-    refused "--model must be simple, lambert or phong, not 'phnog'; did you mean 'phong'?" render \
+    refused "--model must be simple, lambert, phong or blinn_phong, not 'phnog'; did you mean 'phong'?" render \
         render s.yaml --model phnog
-    refused "--model blinn_phong does not exist yet in this version; use simple, lambert or phong" pov \
-        pov s.yaml --model=blinn_phong
     refused "--engine fast does not exist yet in this version; use reference" render render s.yaml --engine fast
     refused "--engine must be reference, not 'gpu'" compare compare s.yaml --engine gpu
     refused "--encoding must be srgb or linear, not 'rgb'; did you mean 'srgb'?" render \

@@ -44,7 +44,7 @@ load helpers
     cmp one.png many.png
     try 0 render -q s.yaml -o same.png --samples 1 --engine reference --model phong --bit-depth 8 --encoding srgb
     cmp one.png same.png
-    for options in "--model simple" "--model lambert" "--bit-depth 16" "--encoding linear" "--width 63"; do
+    for options in "--model simple" "--model lambert" "--model blinn_phong" "--samples 2" "--bit-depth 16" "--encoding linear" "--width 63"; do
         # shellcheck disable=SC2086
         try 0 render -q s.yaml -o other.png $options
         not cmp -s one.png other.png
