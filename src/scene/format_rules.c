@@ -81,8 +81,12 @@ void finishCamera(SceneReader *reader, GivenKeys *given, void *values, void *tar
                     "the camera looks along 'up', so it cannot tell what is up in the picture");
         return;
     }
-    *built =
-        (Camera){.position = camera->position, .direction = direction, .up = camera->up, .fov = camera->fov};
+    *built = (Camera){.position = camera->position,
+                      .direction = direction,
+                      .up = camera->up,
+                      .fov = camera->fov,
+                      .projection = camera->projection,
+                      .viewHeight = isOrthographic ? camera->viewHeight : 0};
 }
 
 /* The values are the scene's background. */

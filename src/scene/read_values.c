@@ -55,9 +55,10 @@ void reportWrongType(SceneReader *reader, const FormatKey *key, Place place, con
         textAppendFormat(&hint, "begin each %s with '- '", key->kinds->noun);
     else if (key->type == FORMAT_STEPS && value->kind == NODE_MAPPING)
         textAppendFormat(&hint, "begin each %s with '- '", key->mapping->name);
-    else if (key->type == FORMAT_COLOR && value->kind == NODE_SCALAR)
+    else if (key->type == FORMAT_COLOR && key->count == 0 && value->kind == NODE_SCALAR)
         textAppend(&hint, "write how much red, green and blue it has, in brackets: red is [1, 0, 0]");
-    else if ((key->type == FORMAT_POINT || key->type == FORMAT_DIRECTION) && value->kind == NODE_SCALAR)
+    else if ((key->type == FORMAT_POINT || key->type == FORMAT_DIRECTION) && key->count == 0 &&
+             value->kind == NODE_SCALAR)
         textAppend(&hint, "write the three numbers in brackets, such as [0, 1, 0]");
     reportError(reader, place, hint.length > 0 ? hint.data : NULL, "%s", textString(&message));
     textFree(&message);

@@ -105,12 +105,126 @@ static void fineScenesGiveNone(void **state)
                   0, 0, NULL, false);
 }
 
+/* What shines by itself, lets something else be seen or lies in fog needs no light. */
+static void notAllLightComesFromLights(void **state)
+{
+    (void)state;
+#define WITH(material)                                                                                       \
+    "objects: [{sphere: {center: [0, 0, -5], radius: 1, material: {" material "}}}, {sphere: {center: [1, "  \
+    "0, -5], radius: 1}}]\n"
+    assertWarning(WITH("emission: 0.5"), 0, 0, NULL, false);
+    assertWarning("render: {ambient: 0.5}\n" WITH("ambient: 0.5"), 0, 0, NULL, false);
+    assertWarning("background: 1\n" WITH("reflection: 0.5"), 0, 0, NULL, false);
+    assertWarning("background: 1\n" WITH("transmission: 0.5"), 0, 0, NULL, false);
+    assertWarning(WITH("model: simple"), 0, 0, NULL, false);
+    assertWarning("fog: {color: 0.5, distance: 10}\n" SPHERE, 0, 0, NULL, false);
+    assertWarning("lights: [{point: {position: [0, 5, 0], color: 0}}]\n" WITH("model: simple"), 0, 0, NULL,
+                  false);
+    assertWarning(
+        "objects: [{union: {objects: [{cube: {center: [0, 0, -5], size: 1, material: {emission: 1}}}]}}]\n",
+        0, 0, NULL, false);
+    /* What the terms are multiplied by is black. */
+    const char *message = "there is no light: every object comes out black";
+    assertWarning(WITH("ambient: 0.5"), 1, 1, message, true);
+    assertWarning("render: {ambient: [1, 0, 0]}\n" WITH("ambient: [0, 1, 0]"), 1, 1, message, true);
+    assertWarning("fog: {color: 0, distance: 10}\n" SPHERE, 1, 1, message, true);
+    assertWarning("render: {model: simple}\n" WITH("model: lambert"), 0, 0, NULL, false);
+    assertWarning("objects: [{union: {objects: [{cube: {center: [0, 0, -5], size: 1}}]}}]\n", 1, 1, message,
+                  true);
+}
+
+/* Lights that are no points, cameras without one, objects that light goes through. */
+static void otherLightsAndCamerasAreLeftAlone(void **state)
+{
+    (void)state;
+#define ROOM "objects: [{sphere: {center: [0, 0, 0], radius: 2}}]\n"
+    assertWarning(
+        "camera: {projection: orthographic, view_height: 9, position: [0, 0, 0]}\n"
+        "lights: [{point: {position: [0, 9, -9], color: 300}}]\n"
+        "objects: [{sphere: {center: [0, 0, 0], radius: 2}}, {cube: {center: [0, 0, -9], size: 20}}]\n",
+        0, 0, NULL, false);
+    assertWarning("lights: [{directional: {direction: [0, -1, 0], color: 1}}]\n" ROOM, 0, 0, NULL, true);
+    assertWarning(
+        "lights: [{area: {center: [0, 5, 0], edge_u: [9, 0, 0], edge_v: [0, 9, 0], samples: [3, 3], "
+        "color: 30}}]\n" ROOM,
+        0, 0, NULL, false);
+    /* A spot light is a point. */
+    assertWarning(
+        "lights: [{spot: {position: [0, 5, 0], look_at: [0, 0, 0], color: 30, inner_angle: 20, "
+        "outer_angle: 30}}]\n" ROOM,
+        1, 1,
+        "the camera is inside the sphere of line 2 and every light is outside: all surfaces it sees "
+        "are black",
+        true);
+    assertWarning(LIGHT "objects: [{sphere: {center: [0, 0, 0], radius: 2, casts_shadow: false}}]\n", 0, 0,
+                  NULL, false);
+    assertWarning(LIGHT
+                  "objects: [{sphere: {center: [0, 0, 0], radius: 2, material: {transmission: 0.5}}}]\n",
+                  0, 0, NULL, false);
+    assertWarning(LIGHT "objects: [{sphere: {center: [0, 0, 0], radius: 2}}, {sphere: {center: [0, 0, 0], "
+                        "radius: 1, material: {emission: 1}}}]\n",
+                  0, 0, NULL, false);
+    assertWarning("lights: [{point: {position: [0, 0, -5], color: 30}}]\n"
+                  "objects: [{sphere: {center: [0, 0, -5], radius: 1, material: {transmission: 0.5}}}, "
+                  "{plane: {point: [0, -2, 0], normal: [0, 1, 0]}}]\n",
+                  0, 0, NULL, false);
+    /* A bulb of which a part is transparent. */
+    assertWarning(
+        "lights: [{point: {position: [0, 0, -5], color: 30}}]\n"
+        "objects: [{union: {objects: [{sphere: {center: [0, 0, -5], radius: 1}}, {sphere: {center: [0, -1, "
+        "-5], radius: 1, material: {transmission: 1}}}]}}, {plane: {point: [0, -2, 0], normal: [0, 1, "
+        "0]}}]\n",
+        0, 0, NULL, false);
+}
+
+/* Objects are where their transforms put them. */
+static void transformsCount(void **state)
+{
+    (void)state;
+    const char *behind = "the camera looks away: every object is behind it";
+    assertWarning(LIGHT "objects: [{sphere: {center: [0, 0, 5], radius: 1, transform: [translate: [0, 0, "
+                        "-10]]}}]\n",
+                  0, 0, NULL, false);
+    assertWarning(LIGHT
+                  "objects: [{sphere: {center: [0, 0, -5], radius: 1, transform: [rotate: {axis: [0, 1, "
+                  "0], angle: 180}]}}]\n",
+                  1, 1, behind, true);
+    assertWarning(LIGHT "objects: [{group: {transform: [scale: [1, 1, -1]], objects: [{union: {objects: "
+                        "[{cube: {center: [0, 0, -5], size: 1}}]}}]}}]\n",
+                  1, 1, behind, true);
+    assertWarning(
+        "camera: {projection: orthographic, view_height: 3}\n" LIGHT
+        "objects: [{torus: {major_radius: 2, minor_radius: 1, transform: [translate: [0, 0, 4]]}}]\n",
+        1, 1, behind, true);
+    assertWarning(
+        LIGHT "objects: [{sphere: {center: [5, 5, 5], radius: 1, transform: [translate: [-5, -5, "
+              "-5], scale: 2]}}]\n",
+        1, 1,
+        "the camera is inside the sphere of line 2 and every light is outside: all surfaces it sees "
+        "are black",
+        true);
+    assertWarning("lights: [{point: {position: [0, 0, -5], color: 30}}]\n"
+                  "objects: [{difference: {objects: [{cube: {center: [0, 0, -5], size: 2}}, {cube: {center: "
+                  "[9, 0, -5], "
+                  "size: 2}}]}}]\n",
+                  1, 11, "this light is inside the solid of line 2 and lights nothing that the camera sees",
+                  true);
+    /* In the hollow of one, with a window, it lights something. */
+    assertWarning(
+        "lights: [{point: {position: [0, 0, -5], color: 30}}]\n"
+        "objects: [{difference: {objects: [{cube: {center: [0, 0, -5], size: 2}}, {box: {min: [-0.9, -0.9, "
+        "-5.9], max: [0.9, 0.9, 0]}}]}}]\n",
+        0, 0, NULL, false);
+}
+
 static void noObject(void **state)
 {
     (void)state;
     const char *message = "there is no object: the picture shows only the background";
     assertWarning("image: {width: 5}\n", 1, 1, message, true);
     assertWarning("# empty\n" LIGHT "objects: []\n", 3, 1, message, true);
+    assertWarning("fog: {color: 0.5, distance: 10}\n", 1, 1,
+                  "there is no object: the picture shows only the fog", false);
 }
 
 static void noLight(void **state)
@@ -197,6 +311,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fineScenesGiveNone),
+        cmocka_unit_test(notAllLightComesFromLights),
+        cmocka_unit_test(otherLightsAndCamerasAreLeftAlone),
+        cmocka_unit_test(transformsCount),
         cmocka_unit_test(noObject),
         cmocka_unit_test(noLight),
         cmocka_unit_test(everythingBehindTheCamera),
