@@ -14,9 +14,13 @@ table='
 base:
 geometry:   base
 colors:     base
-shading:    geometry colors
+patterns:   geometry colors
+shading:    patterns
 shapes:     shading
 raytracer:  shapes
+camera:     raytracer
+lights:     raytracer
+scene_objects: raytracer
 image:      colors
 scene:      raytracer image
 povray:     raytracer image
