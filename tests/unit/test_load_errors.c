@@ -417,18 +417,89 @@ static void aliasesCannotBlowUpAFile(void **state)
     textFree(&yaml);
 }
 
+/* An undefined material that a group hands down to many is one error and one search for its name. */
+static void anInheritedErrorIsOneError(void **state)
+{
+    (void)state;
+    Text yaml = {0};
+    textAppend(&yaml, "objects:\n- group:\n    material: glod\n    objects:\n");
+    for (int i = 0; i < 20000; i++)
+        textAppend(&yaml, "    - sphere: {center: [0, 0, -5], radius: 1}\n");
+    textAppend(&yaml, "    - &o\n      sphere: {center: [0, 0, -5], radius: 1, material: sliver}\n");
+    for (int i = 0; i < 20000; i++)
+        textAppend(&yaml, "    - *o\n");
+    textAppend(&yaml, "materials:\n  gold: {}\n  silver: {}\n");
+    for (int i = 0; i < 20000; i++)
+        textAppendFormat(&yaml, "  name%d: {}\n", i);
+    size_t errors;
+    double seconds = secondsToLoad(yaml.data, yaml.length, &errors);
+    if (errors != 2 || seconds > 2)
+        fail_msg("%zu errors, %.1f s", errors, seconds);
+    Diagnostics d = loadBytes(yaml.data, yaml.length);
+    assert_string_equal(d.items[0].hint, "did you mean 'gold'?");
+    assert_int_equal(d.items[0].line, 3);
+    assert_string_equal(d.items[1].hint, "did you mean 'silver'?");
+    diagnosticsFree(&d);
+    textFree(&yaml);
+}
+
+/* Lists within lists of groups by way of aliases stay within the budget of aliases. */
+static void groupsOfAliasesCannotBlowUp(void **state)
+{
+    (void)state;
+    Text yaml = {0};
+    textAppend(&yaml, "objects:\n- &g0\n  group: {objects: [{sphere: {center: [0, 0, -5], radius: 1}}]}\n");
+    for (int i = 1; i <= 18; i++)
+        textAppendFormat(&yaml, "- &g%d\n  group: {objects: [*g%d, *g%d, *g%d, *g%d]}\n", i, i - 1, i - 1,
+                         i - 1, i - 1);
+    size_t errors;
+    double seconds = secondsToLoad(yaml.data, yaml.length, &errors);
+    textFree(&yaml);
+    assert_true(errors >= 1);
+    assert_true(seconds < 5);
+}
+
+/* A broken file that many objects name is read once and reported at each. */
+static void aBrokenFileIsReportedWhereverItIsNamed(void **state)
+{
+    (void)state;
+    Diagnostics d = load("objects:\n- mesh: {file: scenes/bad/files/broken.obj}\n"
+                         "- mesh: {file: scenes/bad/files/broken.obj, transform: [scale: 2]}\n"
+                         "- spheres: {file: scenes/bad/files/broken-spheres.txt}\n"
+                         "- mesh: {file: /dev/zero}\n");
+    assert_int_equal(d.errors, 4);
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(d.items[i].line, 2 + (int)i);
+        assert_non_null(strstr(d.items[i].message, "scenes/bad/files/broken.obj:5:7: "));
+    }
+    assert_int_equal(d.items[2].column, 19);
+    assert_non_null(strstr(d.items[2].message, "scenes/bad/files/broken-spheres.txt:3:8: "));
+    assert_non_null(strstr(d.items[3].message, "'/dev/zero': it is not an ordinary file"));
+    diagnosticsFree(&d);
+}
+
 /* ---- Any bytes ---- */
 
-static const char SCENE[] = "%YAML 1.2\n--- # \xC3\xA9\n"
-                            "image: {width: 64, height: 0x30, bit_depth: 16, encoding: 'linear'}\n"
-                            "camera:\n  position: &p [0, .5, +5e0]\n  look_at: [0, 0, -1]\n  fov: 60.\n"
-                            "render: {model: \"lam\\x62ert\", shadows: True}\nbackground: 0.25\n"
-                            "materials:\n  red glaze: &m {diffuse: [1, 0, 0], shininess: 32}\n"
-                            "  ? blue\n  : specular: 1\n"
-                            "lights:\n- point: {position: *p, color: 20, falloff: none}\n"
-                            "objects: [\n  {sphere: {center: [0, 0, -5], radius: 1, material: red glaze}},\n"
-                            "  {plane: {point: [0, -1, 0], normal: [0, 2, 0], material: *m}}]\n"
-                            "compare: {fail: 3.1e-5}\n...\n";
+static const char SCENE[] =
+    "%YAML 1.2\n--- # \xC3\xA9\n"
+    "image: {width: 64, height: 0x30, bit_depth: 16, encoding: 'linear'}\n"
+    "camera:\n  position: &p [0, .5, +5e0]\n  look_at: [0, 0, -1]\n  fov: 60.\n"
+    "render: {model: \"lam\\x62ert\", shadows: True, samples: 2, ambient: 0.1}\n"
+    "background: {gradient: {bottom: 0.25, top: [0, 0, 1]}}\nfog: {color: 0, distance: 5}\n"
+    "materials:\n  red glaze: &m {diffuse: [1, 0, 0], shininess: 32, transmission: 0.5, ior: 1.5}\n"
+    "  ? blue\n  : {specular: 1, pattern: {stripes: {colors: [0, 1], axis: y, transform: [scale: 2]}}}\n"
+    "lights:\n- point: {position: *p, color: 20, falloff: none}\n"
+    "- spot: {position: *p, look_at: [0, 0, 0], color: 1, inner_angle: 5, outer_angle: 9}\n"
+    "- area: {center: *p, edge_u: [1, 0, 0], edge_v: [0, 1, 0], samples: [2, 3], color: 1}\n"
+    "objects: [\n  {sphere: {center: [0, 0, -5], radius: 1, material: red glaze}},\n"
+    "  {group: {transform: [{translate: *p}, {rotate: {axis: [0, 1, 0], angle: 30}}], casts_shadow: false,\n"
+    "    objects: [{spheres: {data: [[0, 0, 0, 1], [1, 1, 1, 2]]}}, {difference: {material: *m, objects: [\n"
+    "      {cube: {center: *p, size: 1}}, {cone: {base: *p, top: [0, 0, 0], base_radius: 1, top_radius: "
+    "0}},\n"
+    "      {group: {objects: [{torus: {major_radius: 2, minor_radius: 1}}]}}]}}]}},\n"
+    "  {triangle: {vertices: [*p, [0, 0, 0], [1, 0, 0]], material: blue}},\n"
+    "  {plane: {point: [0, -1, 0], normal: [0, 2, 0], material: *m}}]\n"
+    "compare: {fail: 3.1e-5}\n...\n";
 
 static void everyPrefixIsHandled(void **state)
 {
@@ -525,6 +596,9 @@ int main(void)
         cmocka_unit_test(repeatedPiecesAreStoppedAtOnce),
         cmocka_unit_test(depthIsLimitedTo64),
         cmocka_unit_test(aliasesCannotBlowUpAFile),
+        cmocka_unit_test(anInheritedErrorIsOneError),
+        cmocka_unit_test(groupsOfAliasesCannotBlowUp),
+        cmocka_unit_test(aBrokenFileIsReportedWhereverItIsNamed),
         cmocka_unit_test(everyPrefixIsHandled),
         cmocka_unit_test(randomChangesAreHandled),
     };
