@@ -7,10 +7,11 @@
  *     A = cos^2 |dq|^2 - sin^2 dz^2,   B = cos^2 (pq.dq) - g dz sin,   C = cos^2 |pq|^2 - g^2.
  * B^2 - A C loses its digits by cancellation, while by Lagrange's identity it is
  *     cos^2 (|g dq - dz sin pq|^2 - cos^2 |pq x dq|^2),
- * a difference of two squares without that loss. The ray starts near the solid for the same reason (Haines,
- * Gunther and Akenine-Moeller 2019, "Precision improvements for ray/sphere intersection", Ray Tracing Gems).
- * The solid is convex: the ray is in it where it is both in the endless cone and between the ends, as with
- * the slabs of a box (Kay and Kajiya 1986), so no ray slips through the rim between side and disc.
+ * a difference of two squares without that loss. The ray's start is moved near the solid for the same reason
+ * (Haines, Gunther and Akenine-Moeller 2019, "Precision improvements for ray/sphere intersection", Ray
+ * Tracing Gems). The solid is convex: the ray is in it where it is both in the endless cone and between the
+ * ends, as with the slabs of a box (Kay and Kajiya 1986), so no ray slips through the rim between side and
+ * disc.
  */
 #include "shapes/cone.h"
 
@@ -77,7 +78,7 @@ static Interval insideEndlessCone(const Frame *frame, Vector3D p, Vector3D d)
     double g = frame->radius * cosine + pz * sine;
 
     /* Set up the quadratic. */
-    double a = cosine * cosine * dot(dq, dq) - sine * sine * dz * dz;
+    double a = (cosine * norm(dq) - sine * dz) * (cosine * norm(dq) + sine * dz);
     double b = cosine * cosine * dot(pq, dq) - g * dz * sine;
     double c = (cosine * norm(pq) - g) * (cosine * norm(pq) + g);
     double first = norm(subVectors(multVector(dq, g), multVector(pq, dz * sine)));
@@ -89,16 +90,12 @@ static Interval insideEndlessCone(const Frame *frame, Vector3D p, Vector3D d)
         discriminant = 0;
     }
 
-    /* Solve it, the root nearer to 0 by the product of both. Where c is only noise that root comes out too
-     * far, and the difference that is avoided otherwise is as good. */
-    double size = sqrt(discriminant);
-    double q = -(b + copysign(size, b));
+    /* Solve it, the root nearer to 0 by the product of both; q is 0 only where both are at t = 0. */
+    double q = -(b + copysign(sqrt(discriminant), b));
     if (q == 0 && a == 0)
         return c <= 0 ? (Interval){-INFINITY, INFINITY} : nowhere;
-    double t2 = q == 0 ? 0 : a != 0 ? q / a : copysign(INFINITY, q);
     double t1 = q == 0 ? 0 : c / q;
-    if (fabs(t1) > fabs(t2))
-        t1 = (copysign(size, b) - b) / a;
+    double t2 = q == 0 ? 0 : a != 0 ? q / a : copysign(INFINITY, q);
     if (a > 0)
         return (Interval){fmin(t1, t2), fmax(t1, t2)};
     /* Take the end that is on the half where the radius is positive. */
@@ -116,7 +113,6 @@ static void coneIntersect(const Object *object, const Ray *ray, HitSink *sink)
     Vector3D fromMiddle = subVectors(ray->origin, frame.middle);
     double moved = -dot(fromMiddle, ray->direction);
     Vector3D p = addVectors(fromMiddle, multVector(ray->direction, moved));
-
     Interval side = insideEndlessCone(&frame, p, ray->direction);
     if (side.entry > side.exit)
         return;

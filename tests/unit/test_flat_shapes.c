@@ -74,10 +74,13 @@ static void noRayPassesBetweenTriangles(void **state)
         double size = pow(10, randomIn(-6, 6));
         Vector3D a = randomVector(size), b = addVectors(a, randomVector(size * pow(10, randomIn(-3, 0))));
         Vector3D across = randomVector(size * 0.1), middle = multVector(addVectors(a, b), 0.5);
-        /* Both across the edge, on opposite sides of it. */
-        Object first = triangleOf(a, b, addVectors(middle, across));
-        Object second = i % 2 == 0 ? triangleOf(b, a, subVectors(middle, across))
-                                   : triangleOf(subVectors(middle, across), a, b);
+        /* On opposite sides of the edge, turned the same way or not, each beginning at any corner. */
+        Vector3D above = addVectors(middle, across), below = subVectors(middle, across);
+        const Vector3D one[3] = {a, b, above};
+        const Vector3D other[3] = {i % 2 == 0 ? b : a, i % 2 == 0 ? a : b, below};
+        int k = (int)(randomUnit() * 3), l = (int)(randomUnit() * 3);
+        Object first = triangleOf(one[k], one[(k + 1) % 3], one[(k + 2) % 3]);
+        Object second = triangleOf(other[l], other[(l + 1) % 3], other[(l + 2) % 3]);
         Vector3D on = addVectors(a, multVector(subVectors(b, a), randomIn(0.001, 0.999)));
         Ray ray = rayFromTo(addVectors(on, randomVector(size * 3)), on);
         /* Nearly along the plane both are invisible. */

@@ -131,6 +131,8 @@ static void coneHasOneHalfAndAnApex(void **state)
     /* Parallel to the side, inside: from (-0.5, 0, 0) up along (1, 1, 0) there is one way out, at (0.25,
      * 0.75, 0). */
     ASSERT_HITS(&open, createVector(-0.5, 0, 0), createVector(1, 1, 0), 0.75 * sqrt(2));
+    ASSERT_HITS(&open, createVector(0.75, 1.25, 0), createVector(-1, -1, 0), 0.5 * sqrt(2));
+    ASSERT_HITS(&cone, createVector(0.75, 1.25, 0), createVector(-1, -1, 0), 0.5 * sqrt(2), 1.25 * sqrt(2));
 
     /* The other way round: apex below. */
     Object funnel = upright(0, 0, 1, 1, true);
@@ -155,6 +157,10 @@ static void coneStaysExactThinAndFar(void **state)
     Object wire = upright(-1000, 1e-4, 1000, 1e-4, false);
     ASSERT_HITS(&wire, createVector(5, 700, 0), left, 5 - 1e-4, 5 + 1e-4);
     ASSERT_MISS(&wire, createVector(5, 700, 1.0001e-4), left);
+    assertHits(&wire, createVector(5, 705, 0), createVector(-1, -1, 0), 2,
+               (double[]){(5 - 1e-4) * sqrt(2), (5 + 1e-4) * sqrt(2)}, 1e-12);
+    assertHits(&wire, createVector(800, -100, 0), createVector(-1, 1, 0), 2,
+               (double[]){(800 - 1e-4) * sqrt(2), (800 + 1e-4) * sqrt(2)}, 1e-11);
     /* A needle that ends in a point: half its radius in the middle. */
     Object needle = upright(0, 1e-3, 1000, 0, false);
     ASSERT_HITS(&needle, createVector(5, 500, 0), left, 5 - 5e-4, 5 + 5e-4);
