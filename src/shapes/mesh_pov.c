@@ -5,9 +5,10 @@
  * triangles of a bunny, 640 x 480 at 16 bit, one light, POV-Ray 3.7.0.10 on two threads: smooth, 77 pixels of
  * the union differ from ours, each by 1/65535, and 254 of mesh2, one by 2410; flat, 74 and 2107. Reading and
  * bounding take 0.5 s against 0.2 s, the file 21 MB against 7 MB, the picture 0.13 s against 0.2 s. So the
- * union is written wherever no inside is needed; glass does not need it.
- * POV-Ray ignores a smooth triangle, but not one in a mesh, unless all three normals are on one side of it.
- * Those that are not, on sharp edges, go into a mesh of their own within the union.
+ * union is written wherever no inside is needed. Glass does not need it unless the camera is in it: 180
+ * pixels of a smooth glass bunny differ by 1, against 4,010 by up to 2,606 of mesh2. POV-Ray ignores a smooth
+ * triangle, but not one in a mesh, unless all three normals are on one side of it. Those that are not, on
+ * sharp edges, go into a mesh of their own within the union.
  */
 #include "shapes/mesh_build.h"
 #include "shapes/shape.h"
