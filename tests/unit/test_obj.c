@@ -1,4 +1,5 @@
 /* OBJ files and lists of spheres: every spelling, every error with its place, polygons, random changes. */
+#include "base/cancel.h"
 #include "base/text.h"
 #include "shapes/mesh_build.h"
 #include "shapes/polygon.h"
@@ -505,6 +506,26 @@ static void sphereListsAreRead(void **state)
     }
 }
 
+/* The last one: a request to stop is never taken back. */
+static void cancellingLeavesNothing(void **state)
+{
+    (void)state;
+    Text spheres = {0};
+    for (int i = 0; i < 10000; i++)
+        textAppend(&spheres, "1 2 3 4\n");
+    requestCancel();
+    MeshData *mesh = NULL;
+    ListedSphere *list = NULL;
+    size_t count = 0;
+    Status status = parseObjMesh(plain, strlen(plain), true, &mesh);
+    assert_int_equal(status.code, STATUS_INTERRUPTED);
+    assert_null(mesh);
+    status = parseSphereList(spheres.data, spheres.length, &list, &count);
+    assert_int_equal(status.code, STATUS_INTERRUPTED);
+    assert_null(list);
+    textFree(&spheres);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -519,6 +540,7 @@ int main(void)
         cmocka_unit_test(realFilesAreRead),
         cmocka_unit_test(missingFileIsAnError),
         cmocka_unit_test(sphereListsAreRead),
+        cmocka_unit_test(cancellingLeavesNothing),
     };
     return cmocka_run_group_tests_name("obj", tests, NULL, NULL);
 }
