@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-static const Material red = {{1, 0, 0}, {0, 0, 0}, 32};
+static const Material red = {.diffuse = {1, 0, 0}, .shininess = 32};
 
 /* xorshift64* (Vigna 2016): the same numbers everywhere. */
 static uint64_t seed = 88172645463325252u;
