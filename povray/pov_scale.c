@@ -137,7 +137,7 @@ double povScale(const Scene *scene)
         }
         smallest = fmin(smallest, PART_PER_CLEARANCE * clearance(object, scene->camera.position));
         if (scene->render.shadows && hidesLight(object, scene))
-            ;
+            smallest = fmin(smallest, NARROWEST_EDGE);
     }
     farthest = fmin(farthest, room);
     horizon = fmin(horizon, room);
