@@ -8,6 +8,8 @@
 static const double SMALLEST_PART = 0.1;
 static const double PART_PER_CLEARANCE = 10;
 static const double FARTHEST_PART = 1e4;
+/* Along edges where light would leak, POV-Ray's tolerance of 1e-3 is brought to some 1e-7. */
+static const double NARROWEST_EDGE = 0x1p-12;
 /* Even for the sake of small parts nothing is moved farther away; POV-Ray's limit is 1e7. */
 static const double FARTHEST_EXPORTED = 0x1p22;
 
@@ -136,22 +138,49 @@ static bool hasMesh(const Object *object)
     return object->kind == SHAPE_MESH;
 }
 
+/* Whether the surface stands between the camera and a light, the camera on the inside or a plane's one side.
+ * Along the edge of two walls POV-Ray does not see the wall that should hide the light: a shadow ray meets it
+ * nearer than its tolerance, and not a second time as it does a block's that is seen from outside. */
+static bool hidesLight(const Object *object, const Scene *scene)
+{
+    Bounds bounds;
+    Vector3D camera = scene->camera.position;
+    bool isCameraIn = objectContains(object, camera);
+    bool hides = false;
+    if (!object->noShadow && (isCameraIn || !objectBounds(object, &bounds)))
+        for (size_t i = 0; i < scene->lightCount && !hides; i++) {
+            const Light *light = &scene->lights[i];
+            Vector3D from = light->kind == LIGHT_DIRECTIONAL
+                                ? subVectors(camera, multVector(light->direction, FARTHEST_EXPORTED))
+                                : light->position;
+            hides = objectContains(object, from) != isCameraIn;
+        }
+    return hides;
+}
+
 double povScale(const Scene *scene)
 {
     /* Find the smallest part of the scene and how far its farthest part is from the camera. Lights may be
      * anywhere: POV-Ray's limit is one for surfaces. */
-    double smallest = INFINITY, farthest = 0, horizon = 0;
+    double smallest = INFINITY, farthest = 0, horizon = 0, room = INFINITY;
     for (size_t i = 0; i < scene->objectCount; i++) {
         const Object *object = &scene->objects[i];
         Bounds bounds;
         if (objectBounds(object, &bounds)) {
             smallest = fmin(smallest, partSize(bounds));
             farthest = fmax(farthest, farthestSeen(object, bounds, scene->camera.position));
+            /* From the inside of a block or sphere nothing beyond it is seen. */
+            if (transmissivePart(scene, object) == NULL && objectContains(object, scene->camera.position))
+                room = fmin(room, farthestCorner(bounds, scene->camera.position));
         } else {
             horizon = fmax(horizon, farthestInPicture(object, scene));
         }
         smallest = fmin(smallest, PART_PER_CLEARANCE * clearance(object, scene->camera.position));
+        if (scene->render.shadows && hidesLight(object, scene))
+            smallest = fmin(smallest, NARROWEST_EDGE);
     }
+    farthest = fmin(farthest, room);
+    horizon = fmin(horizon, room);
     if (!(smallest > 0) || !isfinite(smallest) || !isfinite(farthest))
         return 1;
     bool isDelicate = false;

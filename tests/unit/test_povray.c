@@ -189,6 +189,24 @@ static void sizesForTheCamera(void **state)
     assert_true(povScale(&flat) > 0x1p13);
     freeScene(&flat);
 
+    /* In a room, or beside a wall, a light outside must not leak in along the edges. */
+    for (int kind = 0; kind < 2; kind++) {
+        Scene room = createScene();
+        if (kind == 0)
+            addBoxToScene(&room,
+                          createBox(createVector(-4, -3, -9), createVector(4, 3, 2), defaultMaterial()));
+        else
+            addPlaneToScene(&room,
+                            createPlane(createVector(4, 0, 0), createVector(1, 0, 0), defaultMaterial()));
+        addLightToScene(&room, createLight(createVector(1, 2, -3), createColor(1, 1, 1)));
+        assert_true(povScale(&room) == 1);
+        addLightToScene(&room, createLight(createVector(5, 2, -3), createColor(1, 1, 1)));
+        assert_true(povScale(&room) >= 1024);
+        room.render.shadows = false;
+        assert_true(povScale(&room) == 1);
+        freeScene(&room);
+    }
+
     /* A far light changes nothing; of a globe only what is before the horizon counts. */
     Scene globe = shinySphere();
     addLightToScene(&globe, createLight(createVector(1e9, 1e9, 0), createColor(1, 1, 1)));
