@@ -87,7 +87,7 @@ void reportUndefinedMaterials(SceneReader *reader)
     size_t searches = 0;
     for (size_t i = 0; i < reader->useCount; i++) {
         const MaterialUse *use = &reader->uses[i];
-        if (use->isInherited || reader->materials[use->name].defined)
+        if (reader->materials[use->name].defined)
             continue;
         const Name *name = &reader->materialNames.names[use->name];
         const char *nearest = nearestMaterial(reader, use->name, &searches);

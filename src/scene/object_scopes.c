@@ -73,7 +73,6 @@ static Material inheritMaterial(SceneReader *reader)
     MaterialUse use = scope->materialUse;
     if (use.name != NAME_NONE) {
         use.leaf = reader->leafCount;
-        use.isInherited = true;
         addUse(reader, use);
     }
     return scope->material;

@@ -26,7 +26,6 @@ typedef struct MaterialUse {
     size_t leaf; /* who uses it; NAME_NONE: nobody, but it must be defined */
     size_t name; /* NAME_NONE: no name */
     Place place;
-    bool isInherited; /* from a scope, which has a use of its own */
 } MaterialUse;
 
 typedef struct ObjectScope {
