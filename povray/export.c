@@ -224,15 +224,28 @@ static Status writeLights(const Export *export)
 
 /* ---- Objects ---- */
 
-/* An object up to its closing brace. */
-static void writeObject(const Export *export, const Object *object)
+/* The shape up to its material. A mesh has an inside in POV-Ray only at the cost of exactness, so only where
+ * that matters: as a part of CSG, and as glass round the camera. */
+static void writeShape(const Export *export, const Object *object, bool isPart)
+{
+    const Scene *scene = export->scene;
+    bool needsInside =
+        isPart || (transmissivePart(scene, object) != NULL && objectContains(object, scene->camera.position));
+    if (object->kind == SHAPE_MESH)
+        writeMeshPov(object, export->scale, needsInside, export->pov);
+    else
+        objectShape(object)->writePov(object, export->scale, export->pov);
+}
+
+/* An object up to its closing brace; isPart: of CSG. */
+static void writeObject(const Export *export, const Object *object, bool isPart)
 {
     Text *pov = export->pov;
-    objectShape(object)->writePov(object, export->scale, pov);
+    writeShape(export, object, isPart);
     textAppend(pov, "\n  ");
     if (object->kind == SHAPE_CSG) {
         for (size_t i = 0; i < object->csg.partCount; i++) {
-            writeObject(export, &object->csg.parts[i]);
+            writeObject(export, &object->csg.parts[i], true);
             textAppend(pov, "\n}\n");
         }
         const Material *glass = transmissivePart(export->scene, object);
@@ -252,11 +265,13 @@ static void writeObjects(const Export *export)
 {
     for (size_t i = 0; i < export->scene->objectCount; i++) {
         const Object *object = &export->scene->objects[i];
-        writeObject(export, object);
+        writeObject(export, object, false);
         if (object->kind != SHAPE_CSG && transmissivePart(export->scene, object) != NULL)
             textAppendPovInterior(export->pov, &object->material);
         bool castsShadow = export->scene->render.shadows && !object->noShadow;
-        textAppend(export->pov, castsShadow ? "\n}\n\n" : "\n  no_shadow\n}\n\n");
+        textAppend(export->pov, castsShadow ? "" : "\n  no_shadow");
+        /* To POV-Ray there is no fog in what is not hollow, be it glass or the room round the camera. */
+        textAppend(export->pov, export->scene->fog.distance > 0 ? "\n  hollow\n}\n\n" : "\n}\n\n");
     }
 }
 

@@ -14,10 +14,9 @@ static const double NARROWEST_EDGE = 0x1p-12;
 static const double FARTHEST_EXPORTED = 0x1p22;
 
 /* Inside glass, rays meet surfaces at all distances, down to nothing in the edges, and a shadow counts how
- * many it crosses; and on a mesh, shadow rays graze the neighbours of the triangle that they leave. So scenes
- * with either are made larger, as far as the horizon of a plane allows. */
-static const double SMALLEST_OF_DELICATE = 128;
-static const double FARTHEST_OF_DELICATE = 0x1p13;
+ * many it crosses. So scenes with glass are made larger, as far as the horizon of a plane allows. */
+static const double SMALLEST_OF_GLASS = 128;
+static const double FARTHEST_OF_GLASS = 0x1p13;
 
 /* The smallest of the three sizes of a box that is not that of something flat. */
 static double partSize(Bounds bounds)
@@ -130,12 +129,17 @@ static double farthestInPicture(const Object *object, const Scene *scene)
     return farthest;
 }
 
-static bool hasMesh(const Object *object)
+/* A tenth of the mean edge of the object's finest mesh: on a mesh, shadow rays graze the neighbours of the
+ * triangle that they leave. INFINITY where there is none. */
+static double finestMesh(const Object *object)
 {
+    double finest = INFINITY;
     for (size_t i = 0; object->kind == SHAPE_CSG && i < object->csg.partCount; i++)
-        if (hasMesh(&object->csg.parts[i]))
-            return true;
-    return object->kind == SHAPE_MESH;
+        finest = fmin(finest, finestMesh(&object->csg.parts[i]));
+    if (object->kind != SHAPE_MESH)
+        return finest;
+    double stretch = object->transform != NULL ? matrixNorm(&object->transform->worldFromObject) : 1;
+    return 0.1 * object->mesh.data->meanEdge * stretch;
 }
 
 /* Whether the surface stands between the camera and a light, the camera on the inside or a plane's one side.
@@ -175,6 +179,7 @@ double povScale(const Scene *scene)
         } else {
             horizon = fmax(horizon, farthestInPicture(object, scene));
         }
+        smallest = fmin(smallest, finestMesh(object));
         smallest = fmin(smallest, PART_PER_CLEARANCE * clearance(object, scene->camera.position));
         if (scene->render.shadows && hidesLight(object, scene))
             smallest = fmin(smallest, NARROWEST_EDGE);
@@ -183,21 +188,21 @@ double povScale(const Scene *scene)
     horizon = fmin(horizon, room);
     if (!(smallest > 0) || !isfinite(smallest) || !isfinite(farthest))
         return 1;
-    bool isDelicate = false;
-    for (size_t i = 0; i < scene->objectCount && !isDelicate; i++)
-        isDelicate = hasMesh(&scene->objects[i]) || transmissivePart(scene, &scene->objects[i]) != NULL;
-    if (!isDelicate && smallest >= SMALLEST_PART && farthest <= FARTHEST_PART && horizon <= FARTHEST_EXPORTED)
+    bool hasGlass = false;
+    for (size_t i = 0; i < scene->objectCount && !hasGlass; i++)
+        hasGlass = transmissivePart(scene, &scene->objects[i]) != NULL;
+    if (!hasGlass && smallest >= SMALLEST_PART && farthest <= FARTHEST_PART && horizon <= FARTHEST_EXPORTED)
         return 1;
 
-    /* Bring the smallest part to a size of 1 to 2, or more of a delicate scene, and the farthest within
+    /* Bring the smallest part to a size of 1 to 2, or more with glass, and the farthest within
      * reach. A horizon may limit how much the scene grows, but is not worth making small parts smaller. */
     double scale = exp2(-floor(log2(smallest)));
     while (scale > 1 && horizon * scale > FARTHEST_EXPORTED)
         scale /= 2;
     while (farthest * scale > FARTHEST_EXPORTED)
         scale /= 2;
-    while (isDelicate && smallest * scale < SMALLEST_OF_DELICATE &&
-           farthest * scale * 2 <= FARTHEST_OF_DELICATE && horizon * scale * 2 <= FARTHEST_EXPORTED)
+    while (hasGlass && smallest * scale < SMALLEST_OF_GLASS && farthest * scale * 2 <= FARTHEST_OF_GLASS &&
+           horizon * scale * 2 <= FARTHEST_EXPORTED)
         scale *= 2;
     return scale;
 }
