@@ -439,6 +439,7 @@ static void addOutside(Generator *generator, Node *parent, const char *key)
 static void addCamera(Generator *generator, Node *scene, Node *objects)
 {
     Node *camera = addMapping(scene, "camera");
+    camera->isFixed = true;
     addOutside(generator, camera, "position");
     addTriple(camera, "look_at", between(generator, -1, 1), between(generator, -1, 0.5),
               between(generator, -1, 1));
@@ -459,6 +460,8 @@ static void addCamera(Generator *generator, Node *scene, Node *objects)
             addSurface(generator, ball, true);
         }
     }
+    for (size_t i = 0; i < camera->count; i++)
+        camera->children[i]->isFixed = true;
 }
 
 static void addRender(Generator *generator, Node *scene, const char *model, bool shadows)
@@ -516,6 +519,7 @@ Node *createRandomScene(uint64_t seed)
         uniform(&generator);
     Node *scene = createTree();
     Node *image = addMapping(scene, "image");
+    image->isFixed = true;
     addNumber(image, "width", 80);
     addNumber(image, "height", 60);
 

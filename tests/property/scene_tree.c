@@ -71,6 +71,7 @@ void addTriple(Node *parent, const char *key, double x, double y, double z)
 Node *copyTree(const Node *tree)
 {
     Node *copy = createNode(tree->kind, tree->key);
+    copy->isFixed = tree->isFixed;
     copy->word = tree->word;
     copy->number = tree->number;
     for (size_t i = 0; i < tree->count; i++)
@@ -146,7 +147,7 @@ static void removeChild(Node *node, size_t i)
 static bool cutOff(Node *node, size_t *left)
 {
     for (size_t i = 0; i < node->count && !isTuple(node); i++) {
-        if ((*left)-- == 0) {
+        if (!node->children[i]->isFixed && (*left)-- == 0) {
             removeChild(node, i);
             return true;
         }
@@ -193,13 +194,11 @@ static bool roundNumber(Node *node, size_t *left)
             return true;
     if (node->kind != NODE_SCALAR || node->word != NULL)
         return false;
-    const double simpler[] = {0, 1, round(node->number), round(node->number * 10) / 10};
-    for (size_t i = 0; i < sizeof simpler / sizeof *simpler; i++) {
-        /* Only towards fewer digits, or there would be no end. */
-        bool isSimpler = node->number != simpler[i] && node->number != 0 && (node->number != 1 || i == 0) &&
-                         !(i == 1 && node->number == round(node->number));
-        if (isSimpler && (*left)-- == 0) {
-            node->number = simpler[i];
+    for (double digits = 10; digits <= 1000; digits *= 10) {
+        /* Not to whole numbers, or faces would fall on one another. */
+        double rounded = round(node->number * digits) / digits;
+        if (rounded != node->number && (*left)-- == 0) {
+            node->number = rounded;
             return true;
         }
     }

@@ -23,6 +23,7 @@ typedef enum NodeKind {
 typedef struct Node {
     NodeKind kind;
     const char *key;  /* in a mapping; not owned */
+    bool isFixed;     /* never left out */
     const char *word; /* of a scalar that is no number; not owned */
     double number;    /* of a scalar without a word */
     struct Node **children;
