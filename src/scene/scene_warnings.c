@@ -185,8 +185,11 @@ typedef struct Where {
 static Where whereInside(const Object *object)
 {
     Where where;
+    bool isCylinder = object->kind == SHAPE_CONE && object->cone.baseRadius == object->cone.topRadius;
     snprintf(where.text, sizeof where.text, "%s the %s", object->kind == SHAPE_PLANE ? "behind" : "inside",
-             object->kind == SHAPE_CSG ? "solid" : objectShape(object)->name);
+             isCylinder                  ? "cylinder"
+             : object->kind == SHAPE_CSG ? "solid"
+                                         : objectShape(object)->name);
     return where;
 }
 

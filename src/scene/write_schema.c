@@ -178,7 +178,9 @@ static void writeSpheres(JsonWriter *json, const FormatRange *range)
         jsonEndObject(json);
     }
     jsonEndArray(json);
-    endItems(json, 4);
+    jsonKeyInteger(json, "minItems", 4);
+    jsonKeyInteger(json, "maxItems", 4);
+    jsonEndObject(json);
 }
 
 static void writeChoices(JsonWriter *json, const FormatKey *key)

@@ -263,6 +263,12 @@ static void cameraInside(void **state)
         "camera: {position: [0, 0.5, 0]}\n" LIGHT "objects:\n  - cube: {center: [0, 0, 0], size: 2}\n", 1, 20,
         "the camera is inside the cube of line 4 and every light is outside: all surfaces it sees are black",
         true);
+    assertWarning(LIGHT "objects: [{cylinder: {base: [0, -1, 0], top: [0, 1, 0], radius: 2}}]\n", 1, 1,
+                  "the camera is inside the cylinder of line 2 and every light is outside: all surfaces it "
+                  "sees are black",
+                  true);
+    assertWarning(LIGHT "objects: [{cylinder: {base: [0, -1, 0], top: [0, 1, 0], radius: 2, open: true}}]\n",
+                  0, 0, NULL, false);
     /* Without shadows light comes in. */
     assertWarning("render: {shadows: false}\n" LIGHT "objects: [{sphere: {center: [0, 0, 0], radius: 2}}]\n",
                   0, 0, NULL, false);
