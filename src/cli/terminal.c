@@ -160,13 +160,13 @@ void endProgress(void)
 
 /* ---- Messages ---- */
 
-/* Append a message with every control character but line feed and tab replaced, so that no name of a file
- * can command the terminal. */
-static void appendHarmless(Text *text, const char *message)
+/* Append a message with every control character but tab replaced, so that no name of a file can command the
+ * terminal or pass for a message of its own. Line feeds are kept where hasLines. */
+static void appendHarmless(Text *text, const char *message, bool hasLines)
 {
     for (const char *c = message; *c != '\0'; c++) {
         unsigned char byte = (unsigned char)*c;
-        bool isControl = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F;
+        bool isControl = (byte < 0x20 && !(byte == '\n' && hasLines) && byte != '\t') || byte == 0x7F;
         textAppendBytes(text, isControl ? "?" : c, 1);
     }
 }
@@ -184,7 +184,7 @@ void appendError(Text *messages, const char *file, const Status *status)
     if (status->code == STATUS_INTERRUPTED)
         return;
     if (file != NULL && status->line > 0) {
-        appendHarmless(messages, file);
+        appendHarmless(messages, file, false);
         textAppendFormat(messages, ":%d:", status->line);
         if (status->column > 0)
             textAppendFormat(messages, "%d:", status->column);
@@ -193,7 +193,8 @@ void appendError(Text *messages, const char *file, const Status *status)
         textAppend(messages, "eclairage: ");
     }
     appendLabel(messages, "error", "31");
-    appendHarmless(messages, status->message);
+    /* POV-Ray's own words are several lines. */
+    appendHarmless(messages, status->message, status->code == STATUS_POVRAY);
     textAppend(messages, "\n");
 }
 
@@ -210,7 +211,7 @@ static void appendFormatted(Text *messages, const char *format, va_list values)
 {
     char buffer[STATUS_MESSAGE_SIZE + 4096];
     vsnprintf(buffer, sizeof buffer, format, values);
-    appendHarmless(messages, buffer);
+    appendHarmless(messages, buffer, false);
     textAppend(messages, "\n");
 }
 

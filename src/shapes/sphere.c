@@ -33,8 +33,13 @@ static void sphereIntersect(const Object *object, const Ray *ray, HitSink *sink)
     /* Solve for the two distances. */
     double c = dot(f, f) - squaredRadius;
     double q = b + copysign(sqrt(discriminant), b);
+    double other = q != 0 ? c / q : 0;
+    /* From a point on the sphere along it, c is nothing but rounding; then the difference is the better one.
+     */
+    if (fabs(other) > fabs(q))
+        other = b - copysign(sqrt(discriminant), b);
     reportHit(sink, q, 0, 0, 0);
-    reportHit(sink, q != 0 ? c / q : 0, 0, 0, 0);
+    reportHit(sink, other, 0, 0, 0);
 }
 
 static Vector3D sphereNormal(const Object *object, const Hit *hit, Vector3D position)

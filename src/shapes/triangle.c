@@ -141,9 +141,30 @@ static double triangleMagnitude(const Object *object)
     return fmax(largestCoordinate(v[0]), fmax(largestCoordinate(v[1]), largestCoordinate(v[2])));
 }
 
+/* Whether the corners' normals are all on one side of the triangle, in world space, and surely so. */
+static bool normalsAgree(const Object *object)
+{
+    const Triangle *triangle = &object->triangle;
+    Vector3D flat = normalize(areaNormal(triangle->vertices));
+    if (object->transform != NULL)
+        flat = normalize(transformNormal(&object->transform->objectFromWorld, flat));
+    int front = 0, back = 0;
+    for (int i = 0; i < 3; i++) {
+        Vector3D n = triangle->normals[i];
+        if (object->transform != NULL)
+            n = normalize(transformNormal(&object->transform->objectFromWorld, n));
+        front += dot(n, flat) > 1e-6;
+        back += dot(n, flat) < -1e-6;
+    }
+    return front == 3 || back == 3;
+}
+
+/* POV-Ray ignores a smooth triangle, but not one in a mesh, unless its normals are all on one side of it. */
 static void triangleWritePov(const Object *object, double scale, Text *pov)
 {
     const Triangle *triangle = &object->triangle;
+    bool inMesh = triangle->isSmooth && !normalsAgree(object);
+    textAppend(pov, inMesh ? "mesh { " : "");
     textAppend(pov, triangle->isSmooth ? "smooth_triangle { " : "triangle { ");
     for (int i = 0; i < 3; i++) {
         if (i > 0)
@@ -154,6 +175,7 @@ static void triangleWritePov(const Object *object, double scale, Text *pov)
             textAppendPovVector(pov, triangle->normals[i], 1);
         }
     }
+    textAppend(pov, inMesh ? " }" : "");
 }
 
 const Shape triangleShape = {.name = "triangle",

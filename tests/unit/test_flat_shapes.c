@@ -210,9 +210,18 @@ static void povWords(void **state)
     const Vector3D normals[3] = {{0, 0, 5}, {0, 3, 0}, {1, 0, 0}};
     object.triangle = createTriangle(object.triangle.vertices, normals, defaultMaterial());
     objectShape(&object)->writePov(&object, 2, &pov);
+    /* POV-Ray ignores a smooth triangle whose normals are not all on one side of it, unless it is in a mesh.
+     */
     assert_string_equal(
         textString(&pov),
-        "smooth_triangle { <2, 4, 6>, <0, 0, 1>, <8, 10, 12>, <0, 1, 0>, <14, 16, 1>, <1, 0, 0>");
+        "mesh { smooth_triangle { <2, 4, 6>, <0, 0, 1>, <8, 10, 12>, <0, 1, 0>, <14, 16, 1>, <1, 0, 0> }");
+    textFree(&pov);
+    const Vector3D level[3] = {{1, 2, 3}, {4, 2, 3}, {1, 5, 3}}, up[3] = {{0, 0, 5}, {0, 0, 3}, {0, 0, 1}};
+    object.triangle = createTriangle(level, up, defaultMaterial());
+    objectShape(&object)->writePov(&object, 2, &pov);
+    assert_string_equal(
+        textString(&pov),
+        "smooth_triangle { <2, 4, 6>, <0, 0, 1>, <8, 4, 6>, <0, 0, 1>, <2, 10, 6>, <0, 0, 1>");
     textFree(&pov);
     object = (Object){
         .kind = SHAPE_DISC,

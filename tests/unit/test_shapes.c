@@ -244,7 +244,7 @@ static void nastyRaysGiveNoNonsense(void **state)
     (void)state;
     const Vector3D axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     for (int kind = 0; kind < SHAPE_COUNT; kind++) {
-        for (int i = 0; i < 6000 && isSimpleKind(kind); i++) {
+        for (int i = 0; i < 30000 && isSimpleKind(kind); i++) {
             double size = i % 2 == 0 ? 1 : pow(10, randomIn(-6, 6));
             Object object = randomObject((ShapeKind)kind, size);
             if (i % 2 == 0 && kind == SHAPE_CONE)
