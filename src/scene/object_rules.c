@@ -204,12 +204,12 @@ void finishSpheres(SceneReader *reader, GivenKeys *given, void *values, void *ta
 
 void enterGroup(SceneReader *reader, GivenKeys *given, void *values)
 {
-    openScope(reader, given, values, false, CSG_UNION);
+    openScope(reader, given, values, false, CSG_GROUP);
 }
 
 void enterSpheres(SceneReader *reader, GivenKeys *given, void *values)
 {
-    openScope(reader, given, values, false, CSG_UNION);
+    openScope(reader, given, values, false, CSG_GROUP);
 }
 
 void enterUnion(SceneReader *reader, GivenKeys *given, void *values)

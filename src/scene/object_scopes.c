@@ -168,7 +168,7 @@ void openScope(SceneReader *reader, const GivenKeys *given, ObjectValues *values
         scope->materialUse = outer->materialUse;
     }
     scope->isSolid = isSolid || (outer != NULL && outer->isSolid);
-    scope->operation = isSolid ? operation : CSG_UNION;
+    scope->operation = isSolid ? operation : CSG_GROUP;
     scope->solidName = isSolid ? given->format->name : scope->isSolid ? outer->solidName : NULL;
     reader->pendingUse.name = NAME_NONE;
     reader->scope = scope;

@@ -17,6 +17,8 @@ static bool admits(const Csg *csg, size_t part, Vector3D point)
 {
     bool inside = objectContains(&csg->parts[part], point);
     switch (csg->operation) {
+    case CSG_GROUP:
+        return true;
     case CSG_UNION:
         return !inside;
     case CSG_INTERSECTION:
@@ -64,7 +66,7 @@ static Vector3D csgNormal(const Object *object, const Hit *hit, Vector3D positio
 static bool csgContains(const Object *object, Vector3D point)
 {
     const Csg *csg = &object->csg;
-    if (csg->operation == CSG_UNION) {
+    if (csg->operation == CSG_UNION || csg->operation == CSG_GROUP) {
         for (size_t i = 0; i < csg->partCount; i++)
             if (objectContains(&csg->parts[i], point))
                 return true;
@@ -83,18 +85,19 @@ static bool csgBounds(const Object *object, Bounds *bounds)
     const Csg *csg = &object->csg;
     if (csg->operation == CSG_DIFFERENCE)
         return objectBounds(&csg->parts[0], bounds);
+    bool isUnion = csg->operation == CSG_UNION || csg->operation == CSG_GROUP;
     bool found = false;
     Bounds all = {{0, 0, 0}, {0, 0, 0}};
     for (size_t i = 0; i < csg->partCount; i++) {
         Bounds part;
         if (!objectBounds(&csg->parts[i], &part)) {
-            if (csg->operation == CSG_UNION)
+            if (isUnion)
                 return false;
             continue;
         }
         if (!found) {
             all = part;
-        } else if (csg->operation == CSG_UNION) {
+        } else if (isUnion) {
             all.min = createVector(fmin(all.min.x, part.min.x), fmin(all.min.y, part.min.y),
                                    fmin(all.min.z, part.min.z));
             all.max = createVector(fmax(all.max.x, part.max.x), fmax(all.max.y, part.max.y),
@@ -130,8 +133,10 @@ static double csgMagnitude(const Object *object)
 static void csgWritePov(const Object *object, double scale, Text *pov)
 {
     (void)scale;
-    const char *words[] = {
-        [CSG_UNION] = "merge", [CSG_INTERSECTION] = "intersection", [CSG_DIFFERENCE] = "difference"};
+    const char *words[] = {[CSG_UNION] = "merge",
+                           [CSG_GROUP] = "union",
+                           [CSG_INTERSECTION] = "intersection",
+                           [CSG_DIFFERENCE] = "difference"};
     textAppendFormat(pov, "%s {", words[object->csg.operation]);
 }
 

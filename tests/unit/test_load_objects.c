@@ -314,7 +314,7 @@ static void solidsHaveTheirPartsInTheWorld(void **state)
     assert_int_equal(p[2].csg.operation, CSG_INTERSECTION);
     assert_int_equal(p[2].csg.parts[0].kind, SHAPE_PLANE);
     assertVector(placed(&p[2].csg.parts[1], 1, 1, 1), 2, 2, 102);
-    assert_int_equal(p[3].csg.operation, CSG_UNION);
+    assert_int_equal(p[3].csg.operation, CSG_GROUP);
     assert_int_equal(p[3].csg.partCount, 2);
     assertVector(placed(&p[3].csg.parts[1], 1, 1, 1), 2, 2, 102);
     assert_int_equal(scene.objects[1].csg.operation, CSG_UNION);
