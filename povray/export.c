@@ -17,8 +17,7 @@
 typedef struct Export {
     const Scene *scene;
     Text *pov;
-    double scale;  /* of all lengths */
-    double extent; /* no point of the scene is farther from the origin, in scene units; planes aside */
+    double scale; /* of all lengths */
     PovFinish finish;
 } Export;
 
@@ -151,6 +150,9 @@ static void writeBackground(const Export *export)
 
 /* ---- Lights ---- */
 
+/* Beyond it POV-Ray counts no hit. */
+static const double FARTHEST_SEEN = 1e7;
+
 /* Far beyond every hit that POV-Ray counts, so that all of the scene is before a directional light. */
 static const double DIRECTIONAL_DISTANCE = 0x1p26;
 
@@ -224,6 +226,10 @@ static Status writeLights(const Export *export)
 
 /* ---- Objects ---- */
 
+enum {
+    MOST_COMPARED = 4096 /* of objects, each with every other */
+};
+
 /* The shape up to its material. A mesh has an inside in POV-Ray only at the cost of exactness, so only where
  * that matters: as a part of CSG, and as glass round the camera. */
 static void writeShape(const Export *export, const Object *object, bool isPart)
@@ -237,6 +243,20 @@ static void writeShape(const Export *export, const Object *object, bool isPart)
         objectShape(object)->writePov(object, export->scale, export->pov);
 }
 
+/* How far from the origin of its own space the object's points can be. An endless one is drawn as far as
+ * POV-Ray sees. */
+static double ownExtent(const Export *export, const Object *object)
+{
+    Bounds bounds;
+    if (objectShape(object)->bounds(object, &bounds))
+        return fmax(largestCoordinate(bounds.min), largestCoordinate(bounds.max));
+    double extent = FARTHEST_SEEN / export->scale + largestCoordinate(export->scene->camera.position);
+    if (object->transform != NULL)
+        extent = matrixNorm(&object->transform->objectFromWorld) * extent +
+                 largestCoordinate(object->transform->objectFromWorld.translate);
+    return extent;
+}
+
 /* An object up to its closing brace; isPart: of CSG. */
 static void writeObject(const Export *export, const Object *object, bool isPart)
 {
@@ -248,17 +268,57 @@ static void writeObject(const Export *export, const Object *object, bool isPart)
             writeObject(export, &object->csg.parts[i], true);
             textAppend(pov, "\n}\n");
         }
-        const Material *glass = transmissivePart(export->scene, object);
-        if (glass != NULL)
-            textAppendPovInterior(pov, glass);
         return;
     }
     textAppendPovTexture(pov, export->scene, &object->material, export->finish, export->scale,
-                         export->extent);
+                         ownExtent(export, object));
     if (object->transform != NULL) {
         textAppend(pov, "\n  ");
         textAppendPovMatrix(pov, &object->transform->worldFromObject, export->scale);
     }
+}
+
+static bool isBoxIn(Bounds inner, Bounds outer)
+{
+    return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
+           inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
+}
+
+/* Whether the transparent object may be in, or round, another one of the same index. Of more objects than can
+ * be looked at, it may. */
+static bool nestsInLikeGlass(const Export *export, const Object *object, double ior)
+{
+    const Scene *scene = export->scene;
+    Bounds own, bounds;
+    if (scene->objectCount > MOST_COMPARED || !objectBounds(object, &own))
+        return true;
+    for (size_t i = 0; i < scene->objectCount; i++) {
+        const Object *other = &scene->objects[i];
+        const Material *glass = other != object ? transmissivePart(scene, other) : NULL;
+        if (glass != NULL && (double)glass->ior == ior &&
+            (!objectBounds(other, &bounds) || isBoxIn(own, bounds) || isBoxIn(bounds, own)))
+            return true;
+    }
+    return false;
+}
+
+/* The interior of a transparent object. Where the index does not change, POV-Ray does not count the ray that
+ * goes on, so that max_trace_level would cut the chain later than max_depth. A difference in the last bit of
+ * its float makes it count, and bends by nothing that can be seen. */
+static void writeInterior(const Export *export, size_t number)
+{
+    const Object *object = &export->scene->objects[number];
+    const Material *glass = transmissivePart(export->scene, object);
+    if (glass == NULL)
+        return;
+    double ior = (double)glass->ior;
+    if (nestsInLikeGlass(export, object, ior))
+        ior *= 1 + FLT_EPSILON * (double)(1 + number % 8);
+    else if (ior == 1)
+        ior += FLT_EPSILON;
+    textAppend(export->pov, "\n  interior { ior ");
+    textAppendPovNumber(export->pov, ior);
+    textAppend(export->pov, " }");
 }
 
 static void writeObjects(const Export *export)
@@ -266,8 +326,7 @@ static void writeObjects(const Export *export)
     for (size_t i = 0; i < export->scene->objectCount; i++) {
         const Object *object = &export->scene->objects[i];
         writeObject(export, object, false);
-        if (object->kind != SHAPE_CSG && transmissivePart(export->scene, object) != NULL)
-            textAppendPovInterior(export->pov, &object->material);
+        writeInterior(export, i);
         bool castsShadow = export->scene->render.shadows && !object->noShadow;
         textAppend(export->pov, castsShadow ? "" : "\n  no_shadow");
         /* To POV-Ray there is no fog in what is not hollow, be it glass or the room round the camera. */
@@ -325,7 +384,7 @@ static Status chooseFinish(const Scene *scene, PovFinish *finish)
 
 Status exportPov(const Scene *scene, const char *name, Text *pov)
 {
-    Export export = {.scene = scene, .pov = pov, .scale = povScale(scene), .extent = sceneExtent(scene)};
+    Export export = {.scene = scene, .pov = pov, .scale = povScale(scene)};
     Status status = chooseFinish(scene, &export.finish);
     if (!statusIsOk(&status))
         return status;

@@ -206,14 +206,3 @@ double povScale(const Scene *scene)
         scale *= 2;
     return scale;
 }
-
-double sceneExtent(const Scene *scene)
-{
-    double extent = largestCoordinate(scene->camera.position);
-    for (size_t i = 0; i < scene->objectCount; i++) {
-        Bounds bounds;
-        if (objectBounds(&scene->objects[i], &bounds))
-            extent = fmax(extent, fmax(largestCoordinate(bounds.min), largestCoordinate(bounds.max)));
-    }
-    return extent;
-}

@@ -15,7 +15,4 @@
  * the camera not within 0.01 of a surface; above 0. */
 double povScale(const Scene *scene);
 
-/* The largest coordinate of the camera and of all objects that have an end. */
-double sceneExtent(const Scene *scene);
-
 #endif

@@ -75,15 +75,15 @@ static void appendGradient(Text *pov, const Pattern *pattern)
 }
 
 /* POV-Ray's gradient repeats with a period of 1.00001 at negative coordinates, so it is moved by whole
- * periods until no point of the scene has one. */
+ * periods until no point of the object has one: not farther than needed, since each doubling costs a bit. */
 static void appendShift(Text *pov, const Pattern *pattern, double extent)
 {
     double periods = 1024;
-    double largest = 4 * extent / pattern->size;
+    double largest = 2 * extent / pattern->size;
     if (pattern->hasTransform)
         largest = largest * matrixNorm(&pattern->transform.objectFromWorld) +
                   largestCoordinate(pattern->transform.objectFromWorld.translate) / pattern->size;
-    while (periods < largest && periods < 0x1p40)
+    while (periods < largest && periods < 0x1p36)
         periods *= 2;
     textAppend(pov, " translate ");
     textAppendPovVector(pov, pattern->axis, -periods);
@@ -255,13 +255,6 @@ void textAppendPovTexture(Text *pov, const Scene *scene, const Material *materia
         pov->failed |= layers.texts[i].failed;
         textFree(&layers.texts[i]);
     }
-}
-
-void textAppendPovInterior(Text *pov, const Material *material)
-{
-    textAppend(pov, "\n  interior { ior ");
-    textAppendPovNumber(pov, (double)material->ior);
-    textAppend(pov, " }");
 }
 
 const Material *transmissivePart(const Scene *scene, const Object *object)

@@ -16,15 +16,12 @@ typedef enum PovFinish {
 void textAppendPovColor(Text *pov, Color3f color, double factor);
 
 /* Append the textures of a material, the top layer last. scale: of all lengths; extent: how far from the
- * origin points of the scene can be, in scene units. */
+ * origin of its own space the object's points can be. */
 void textAppendPovTexture(Text *pov, const Scene *scene, const Material *material, PovFinish finish,
                           double scale, double extent);
 
 /* The first material in the object that rays go through, or NULL. */
 const Material *transmissivePart(const Scene *scene, const Object *object);
-
-/* Append the interior that such an object has. */
-void textAppendPovInterior(Text *pov, const Material *material);
 
 /* Append "matrix <...>", the translation times scale. */
 void textAppendPovMatrix(Text *pov, const Matrix *matrix, double scale);

@@ -24,7 +24,8 @@ typedef struct Place {
 
 typedef struct Generator {
     uint64_t state;
-    bool simple; /* the scene's model is the simple one */
+    bool simple;      /* the scene's model is the simple one */
+    bool manySamples; /* a pixel has several */
     Place places[MAX_THINGS];
     bool isGlass[MAX_THINGS];
     int placeCount;
@@ -474,7 +475,8 @@ static void addRender(Generator *generator, Node *scene, const char *model, bool
         addColor(generator, render, "ambient", 0, 0.5);
     if (chance(generator, 0.6))
         addNumber(render, "max_depth", 1 + pick(generator, 8));
-    if (chance(generator, 0.08))
+    generator->manySamples = chance(generator, 0.08);
+    if (generator->manySamples)
         addNumber(render, "samples", 2 + pick(generator, 2));
 }
 
@@ -484,6 +486,8 @@ static void addLight(Generator *generator, Node *lights, int kind)
     Node *light = addMapping(addMapping(lights, NULL), kinds[kind]);
     bool falls = chance(generator, 0.6);
     double brightest = kind == 1 || !falls ? 1 : 80;
+    if (generator->manySamples)
+        brightest /= 10;
     if (kind == 1)
         addTriple(light, "direction", between(generator, -1, 1), between(generator, -1, -0.3),
                   between(generator, -1, 1));
