@@ -98,8 +98,10 @@ static double clearance(const Object *object, Vector3D camera)
 /* How far away the picture shows a shape without end: in each row, at the pixels nearest to the horizon. */
 static double farthestInPicture(const Object *object, const Scene *scene)
 {
-    int width = scene->image.width, height = scene->image.height;
-    CameraFrame frame = cameraFrame(&scene->camera, width, height);
+    CameraFrame frame = cameraFrame(&scene->camera, scene->image.width, scene->image.height);
+    /* With several samples a pixel, their rays are those of a larger picture. */
+    int width = scene->image.width * scene->render.samples;
+    int height = scene->image.height * scene->render.samples;
     double farthest = 0;
     for (int y = 0; y < height; y++) {
         /* Find by bisection where the row leaves the shape, if it does. */

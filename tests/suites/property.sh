@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Random scenes over the whole vocabulary of the format, drawn by us and by the real POV-Ray, are the same
+# (tests/property/crosscheck.c). Prints TAP. Run from the repository root after `make`; `build/crosscheck --seeds
+# 1..1000` looks for longer.
+set -uo pipefail
+if ! command -v povray >/dev/null; then
+    echo '1..0 # SKIP povray is not installed'
+    exit 0
+fi
+build=${BUILD:-build}
+if ! "${MAKE:-make}" --no-print-directory BUILD="$build" SANITIZE="${SANITIZE-}" "$build/crosscheck" >"$build/crosscheck.log" 2>&1; then
+    sed 's/^/# /' "$build/crosscheck.log"
+    echo 'Bail out! crosscheck could not be built'
+    exit 1
+fi
+exec "$build/crosscheck" --seeds 1..24 --threads 8
