@@ -6,7 +6,7 @@
 set -euo pipefail
 program=$(realpath "${ECLAIRAGE:-build/eclairage}")
 mkdir -p "$1"
-"$program" render --quiet scenes/gallery/stairs.yaml -o "$1/stairs.png"
+"$program" render --quiet scenes/gallery/colonnade.yaml -o "$1/colonnade.png"
 command -v chromium >/dev/null || exit 0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -65,7 +65,7 @@ missing=$(grep -o '](\([^)]*\))' README.md CONTRIBUTING.md | sed 's/.*](\(.*\))/
     sort -u | while read -r target; do [ -z "$target" ] || [ -e "$target" ] || echo "$target"; done)
 echo "${missing:+# missing: }$missing" | grep . || true
 report "links lead somewhere" "$([ -z "$missing" ]; echo $?)"
-"$program" render --quiet scenes/gallery/stairs.yaml --bit-depth 8 -o "$folder/stairs.png" &&
-    "$program" diff --fail 0.005 --fail-percent 0 "$folder/stairs.png" notes/pictures/stairs.png >/dev/null
+"$program" render --quiet scenes/gallery/colonnade.yaml --bit-depth 8 -o "$folder/colonnade.png" &&
+    "$program" diff --fail 0.005 --fail-percent 0 "$folder/colonnade.png" notes/pictures/colonnade.png >/dev/null
 report "the README's picture is current" $?
 echo "1..$count"
