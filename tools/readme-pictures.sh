@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 ln -s "$PWD/scenes" "$program" "$work"
 out=$(realpath "$1")
 cd "$work"
-PATH=$work:$PATH eclairage compare --quiet scenes/course/0[45]-phong.yaml scenes/gallery/*.yaml >words
+PATH=$work:$PATH eclairage compare --quiet scenes/gallery/[cdilr-s]*.yaml >words
 chromium --headless --no-sandbox --disable-gpu --disable-background-networking --hide-scrollbars \
-    --user-data-dir="$work/profile" --window-size=1200,900 --virtual-time-budget=8000 \
+    --user-data-dir="$work/profile" --window-size=1200,900 --virtual-time-budget=60000 \
     --screenshot="$out/report.png" "file://$work/eclairage-report/index.html" >log 2>&1
