@@ -321,12 +321,30 @@ static void writeInterior(const Export *export, size_t number)
     textAppend(export->pov, " }");
 }
 
+/* Whether rays begin inside the object, as far as POV-Ray knows. */
+static bool containsCamera(const Export *export, const Object *object)
+{
+    const Camera *camera = &export->scene->camera;
+    return camera->projection == PROJECTION_PERSPECTIVE && objectContains(object, camera->position);
+}
+
 static void writeObjects(const Export *export)
 {
+    bool isCameraInGlass = false;
+    for (size_t i = 0; i < export->scene->objectCount && !isCameraInGlass; i++) {
+        const Object *object = &export->scene->objects[i];
+        isCameraInGlass = transmissivePart(export->scene, object) != NULL && containsCamera(export, object);
+    }
     for (size_t i = 0; i < export->scene->objectCount; i++) {
         const Object *object = &export->scene->objects[i];
         writeObject(export, object, false);
         writeInterior(export, i);
+        /* POV-Ray also counts what is opaque among the media that rays begin in, and the last one, in an
+         * order of its own, decides how they leave the glass. Of an inverse room the outside is its inside.
+         */
+        if (isCameraInGlass && object->kind != SHAPE_MESH &&
+            transmissivePart(export->scene, object) == NULL && containsCamera(export, object))
+            textAppend(export->pov, "\n  inverse");
         bool castsShadow = export->scene->render.shadows && !object->noShadow;
         textAppend(export->pov, castsShadow ? "" : "\n  no_shadow");
         /* To POV-Ray there is no fog in what is not hollow, be it glass or the room round the camera. */
