@@ -367,6 +367,18 @@ static void countModels(const Scene *scene, const Object *object, size_t *simple
     }
 }
 
+/* A picture on the object that POV-Ray would make transparent, or NULL. */
+static const Pattern *transparentPicture(const Object *object)
+{
+    const Pattern *pattern = object->kind != SHAPE_CSG ? object->material.pattern : NULL;
+    if (pattern != NULL && pattern->kind == PATTERN_IMAGE && pattern->hasAlpha)
+        return pattern;
+    for (size_t i = 0; object->kind == SHAPE_CSG && i < object->csg.partCount; i++)
+        if ((pattern = transparentPicture(&object->csg.parts[i])) != NULL)
+            return pattern;
+    return NULL;
+}
+
 /* Decide how the materials are written, or refuse. */
 static Status chooseFinish(const Scene *scene, PovFinish *finish)
 {
@@ -378,6 +390,14 @@ static Status chooseFinish(const Scene *scene, PovFinish *finish)
     size_t simple = 0, other = 0;
     for (size_t i = 0; i < scene->objectCount; i++)
         countModels(scene, &scene->objects[i], &simple, &other);
+    for (size_t i = 0; i < scene->objectCount; i++) {
+        const Pattern *picture = transparentPicture(&scene->objects[i]);
+        if (picture != NULL)
+            return statusErrorAt(STATUS_INEXPRESSIBLE, scene->objects[i].line, 0,
+                                 "the picture %s has transparency, which is ignored here but not by POV-Ray; "
+                                 "save it without an alpha channel to compare",
+                                 picture->path);
+    }
     if (simple > 0 && other > 0)
         return statusError(
             STATUS_INEXPRESSIBLE,

@@ -38,6 +38,7 @@ typedef struct Pattern {
     const Color3f *texels; /* owned by the scene */
     const char *path;      /* the PNG file, absolute, for POV-Ray; owned by the scene */
     bool isLinear;         /* the file's samples are linear, not sRGB */
+    bool hasAlpha;         /* the file has transparency, which does not count here but does in POV-Ray */
 } Pattern;
 
 /* The colour at a point of the object's own space. */

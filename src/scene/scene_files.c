@@ -65,6 +65,7 @@ static Status decodeTexels(Scene *scene, const Image *image, Pattern *pattern)
     size_t count = (size_t)image->width * (size_t)image->height;
     Color3f *texels = allocateInScene(scene, count * sizeof *texels);
     pattern->isLinear = image->bitDepth == 16 && image->encoding == ENCODING_LINEAR;
+    pattern->hasAlpha = image->hadAlpha;
     float *table = texels != NULL ? tabulateSamples(image, pattern->isLinear) : NULL;
     if (table == NULL)
         return statusOutOfMemory();
@@ -226,6 +227,7 @@ bool loadImage(SceneReader *reader, Place place, const char *file, Pattern *patt
     pattern->texels = read->image.texels;
     pattern->path = read->image.path;
     pattern->isLinear = read->image.isLinear;
+    pattern->hasAlpha = read->image.hasAlpha;
     return true;
 }
 
