@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every course and gallery scene against the real POV-Ray: within the tolerances of compare/results.csv,
+# Every course, gallery and regress scene against the real POV-Ray: within the tolerances of compare/results.csv,
 # and with the very numbers committed there. Prints TAP. Run from the repository root after `make`.
 set -uo pipefail
 for tool in povray jq; do
