@@ -1,5 +1,6 @@
 /* The whole format in the tracer, by hand: every kind of light, every term of a material, rays in a chain,
  * fog and sky, orthographic and several samples. */
+#include "one_pixel.h"
 #include "raytracer.h"
 
 #include <setjmp.h>
@@ -28,31 +29,6 @@ static Object groundObject(Material material)
                     .plane = createPlane(createVector(0, 0, 0), createVector(0, 1, 0), material)};
 }
 
-/* The colour along one ray, seen through a picture of one pixel that looks along it. */
-static Color3f colorAlong(Scene *scene, Vector3D from, Vector3D to)
-{
-    scene->camera.position = from;
-    scene->camera.direction = subVectors(to, from);
-    scene->camera.up = fabs(scene->camera.direction.y) > 0.9 * norm(scene->camera.direction)
-                           ? createVector(0, 0, -1)
-                           : createVector(0, 1, 0);
-    Framebuffer *framebuffer = createFramebuffer(1, 1);
-    RenderOptions options = {.threads = 1};
-    Status status = renderReference(scene, framebuffer, &options, NULL);
-    assert_true(statusIsOk(&status));
-    Color3f color = framebuffer->pixels[0];
-    freeFramebuffer(framebuffer);
-    return color;
-}
-
-static void assertColor(Color3f color, double r, double g, double b)
-{
-    const double found[3] = {(double)color.r, (double)color.g, (double)color.b}, expected[3] = {r, g, b};
-    for (int i = 0; i < 3; i++)
-        if (!(fabs(found[i] - expected[i]) <= 2e-6 * fmax(1, expected[i])))
-            fail_msg("channel %d is %.9g, not %.9g", i, found[i], expected[i]);
-}
-
 /* ---- Lights ---- */
 
 static void directionalLight(void **state)
@@ -65,15 +41,15 @@ static void directionalLight(void **state)
                                     .color = createColor(1, 1, 1),
                                     .falloff = FALLOFF_NONE});
     Vector3D eye = createVector(1, 5, 2);
-    assertColor(colorAlong(&scene, eye, createVector(0, 0, 0)), 0.8, 0.4, 0);
-    assertColor(colorAlong(&scene, eye, createVector(3, 0, -7)), 0.8, 0.4, 0);
+    assertColorNear(colorAlong(&scene, eye, createVector(0, 0, 0)), 0.8, 0.4, 0);
+    assertColorNear(colorAlong(&scene, eye, createVector(3, 0, -7)), 0.8, 0.4, 0);
     /* A blocker at any distance against the light's direction, and none along it. */
     addObjectToScene(&scene, sphereObject(-6e6, 8e6, 0, 1, diffuseOnly(1, 1, 1)));
-    assertColor(colorAlong(&scene, eye, createVector(0, 0, 0)), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, eye, createVector(0, 0, 0)), 0, 0, 0);
     scene.objects[1].sphere.center = createVector(6, -8, 0);
-    assertColor(colorAlong(&scene, eye, createVector(0, 0, 0)), 0.8, 0.4, 0);
+    assertColorNear(colorAlong(&scene, eye, createVector(0, 0, 0)), 0.8, 0.4, 0);
     scene.lights[0].direction.y = 0.8;
-    assertColor(colorAlong(&scene, eye, createVector(0, 0, 0)), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, eye, createVector(0, 0, 0)), 0, 0, 0);
     freeScene(&scene);
 }
 
@@ -98,22 +74,22 @@ static void spotLight(void **state)
         double inner = cos(10 * pi / 180), outer = cos(30 * pi / 180);
         double s = fmax(0, fmin(1, (cos(t) - outer) / (inner - outer)));
         double expected = s * s * (3 - 2 * s) * pow(cos(t), 2) * 10 * cos(t) / (4 + x * x);
-        assertColor(colorAlong(&scene, createVector(x, 3, 1), createVector(x, 0, 0)), expected, expected,
-                    expected);
+        assertColorNear(colorAlong(&scene, createVector(x, 3, 1), createVector(x, 0, 0)), expected, expected,
+                        expected);
     }
     /* Inner = outer is a hard edge, and no falloff is none. */
     scene.lights[0].innerAngle = 30;
     scene.lights[0].tightness = 0;
     scene.lights[0].falloff = FALLOFF_NONE;
     double x = 2 * tan(29.99 * pi / 180), cosine = cos(29.99 * pi / 180);
-    assertColor(colorAlong(&scene, createVector(x, 3, 1), createVector(x, 0, 0)), 10 * cosine, 10 * cosine,
-                10 * cosine);
+    assertColorNear(colorAlong(&scene, createVector(x, 3, 1), createVector(x, 0, 0)), 10 * cosine,
+                    10 * cosine, 10 * cosine);
     x = 2 * tan(30.01 * pi / 180);
-    assertColor(colorAlong(&scene, createVector(x, 3, 1), createVector(x, 0, 0)), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, createVector(x, 3, 1), createVector(x, 0, 0)), 0, 0, 0);
     /* Behind the light there is nothing, even with an outer angle of 90. */
     scene.lights[0].innerAngle = scene.lights[0].outerAngle = 90;
     scene.lights[0].direction.y = 1;
-    assertColor(colorAlong(&scene, createVector(0, 3, 1), createVector(0, 0, 0)), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, createVector(0, 3, 1), createVector(0, 0, 0)), 0, 0, 0);
     freeScene(&scene);
 }
 
@@ -137,11 +113,12 @@ static void areaLight(void **state)
                                                  createColor(5, 20.0f / 6, 10.0f / 6)));
     Vector3D eye = createVector(1, 5, 2), target = createVector(0.3, 0, 0.7);
     Color3f expected = colorAlong(&points, eye, target);
-    assertColor(colorAlong(&area, eye, target), (double)expected.r, (double)expected.g, (double)expected.b);
+    assertColorNear(colorAlong(&area, eye, target), (double)expected.r, (double)expected.g,
+                    (double)expected.b);
     /* A count of 1 is the middle. */
     area.lights[0].countU = area.lights[0].countV = 1;
     double d2 = 16 + 0.3 * 0.3 + 0.7 * 0.7, cosine = 4 / sqrt(d2);
-    assertColor(colorAlong(&area, eye, target), 30 * cosine / d2, 20 * cosine / d2, 10 * cosine / d2);
+    assertColorNear(colorAlong(&area, eye, target), 30 * cosine / d2, 20 * cosine / d2, 10 * cosine / d2);
     freeScene(&area);
     freeScene(&points);
 }
@@ -158,10 +135,10 @@ static void ownLightAndAmbient(void **state)
     material.emission = createColor(0.01f, 3, 0);
     addObjectToScene(&scene, groundObject(material));
     Vector3D eye = createVector(1, 5, 2), origin = createVector(0, 0, 0);
-    assertColor(colorAlong(&scene, eye, origin), 0.11, 3.1, 0.6);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.11, 3.1, 0.6);
     /* The simple model has neither, also where only the material says so. */
     scene.objects[0].material.model = MODEL_SIMPLE;
-    assertColor(colorAlong(&scene, eye, origin), 1, 1, 1);
+    assertColorNear(colorAlong(&scene, eye, origin), 1, 1, 1);
     freeScene(&scene);
 }
 
@@ -174,12 +151,12 @@ static void blinnsHighlight(void **state)
     addObjectToScene(&scene, groundObject(createMaterial(black, createColor(1, 0.5f, 0), 9)));
     addLightToScene(&scene, createLight(createVector(4, 3, 0), createColor(50, 50, 50)));
     double highlight = 2 * pow(7 / sqrt(50), 9);
-    assertColor(colorAlong(&scene, createVector(-3, 4, 0), createVector(0, 0, 0)), highlight, highlight / 2,
-                0);
+    assertColorNear(colorAlong(&scene, createVector(-3, 4, 0), createVector(0, 0, 0)), highlight,
+                    highlight / 2, 0);
     scene.objects[0].material.model = MODEL_PHONG;
     highlight = 2 * pow(24.0 / 25, 9);
-    assertColor(colorAlong(&scene, createVector(-3, 4, 0), createVector(0, 0, 0)), highlight, highlight / 2,
-                0);
+    assertColorNear(colorAlong(&scene, createVector(-3, 4, 0), createVector(0, 0, 0)), highlight,
+                    highlight / 2, 0);
     freeScene(&scene);
 }
 
@@ -204,7 +181,7 @@ static void mirrorsAndTheirLimit(void **state)
             g += pow(0.25, i);
             b += 1;
         }
-        assertColor(colorAlong(&scene, createVector(0, 1, 0), createVector(0.1, 0, 0.2)), r, g, b);
+        assertColorNear(colorAlong(&scene, createVector(0, 1, 0), createVector(0.1, 0, 0.2)), r, g, b);
     }
     freeScene(&scene);
 }
@@ -236,9 +213,9 @@ static void refractionBySnell(void **state)
     addObjectToScene(&scene, (Object){.kind = SHAPE_BOX,
                                       .box = createBox(createVector(-60, -3, -60),
                                                        createVector(lands - 1e-6, -1.9999999, 60), left)});
-    assertColor(colorAlong(&scene, createVector(-0.6, 0.8, 0), createVector(0, 0, 0)), 0, 1, 0.25);
+    assertColorNear(colorAlong(&scene, createVector(-0.6, 0.8, 0), createVector(0, 0, 0)), 0, 1, 0.25);
     scene.objects[2].box.max.x = lands + 1e-6;
-    assertColor(colorAlong(&scene, createVector(-0.6, 0.8, 0), createVector(0, 0, 0)), 0.5, 0, 0);
+    assertColorNear(colorAlong(&scene, createVector(-0.6, 0.8, 0), createVector(0, 0, 0)), 0.5, 0, 0);
     freeScene(&scene);
 }
 
@@ -258,10 +235,10 @@ static void totalReflection(void **state)
                      (Object){.kind = SHAPE_BOX,
                               .box = createBox(createVector(-99, -9, -99), createVector(99, -8, 99), floor)});
     scene.background.bottom = createColor(1, 1, 1);
-    assertColor(colorAlong(&scene, createVector(-0.8, -0.6, 0), createVector(0, 0, 0)), 0.5, 0.25, 0.125);
+    assertColorNear(colorAlong(&scene, createVector(-0.8, -0.6, 0), createVector(0, 0, 0)), 0.5, 0.25, 0.125);
     /* At sin = 0.5: transmission * background + reflection * floor. */
-    assertColor(colorAlong(&scene, createVector(-0.5, -sqrt(0.75), 0), createVector(0, 0, 0)), 1, 1.25,
-                0.375);
+    assertColorNear(colorAlong(&scene, createVector(-0.5, -sqrt(0.75), 0), createVector(0, 0, 0)), 1, 1.25,
+                    0.375);
     freeScene(&scene);
 }
 
@@ -273,9 +250,9 @@ static void nestedGlassAndIor(void **state)
     addObjectToScene(&scene, sphereObject(0, 0, -5, 2, glass(1.5f)));
     addObjectToScene(&scene, sphereObject(0, 0, -5, 1, glass(2.4f)));
     scene.background.bottom = createColor(1, 1, 1);
-    assertColor(colorAlong(&scene, createVector(0, 0, 0), createVector(0, 0, -1)), 0.0625, 1, 0.00390625);
+    assertColorNear(colorAlong(&scene, createVector(0, 0, 0), createVector(0, 0, -1)), 0.0625, 1, 0.00390625);
     /* From inside both, two. */
-    assertColor(colorAlong(&scene, createVector(0, 0, -5), createVector(0, 0, -6)), 0.25, 1, 0.0625);
+    assertColorNear(colorAlong(&scene, createVector(0, 0, -5), createVector(0, 0, -6)), 0.25, 1, 0.0625);
     freeScene(&scene);
 }
 
@@ -287,15 +264,15 @@ static void lightThroughGlassIsTinted(void **state)
     addObjectToScene(&scene, sphereObject(0, 3, 0, 1, glass(1.5f)));
     addLightToScene(&scene, createLight(createVector(0, 6, 0), createColor(36, 36, 36)));
     Vector3D eye = createVector(1, 1, 1), origin = createVector(0, 0, 0);
-    assertColor(colorAlong(&scene, eye, origin), 0.25, 1, 0.0625);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.25, 1, 0.0625);
     /* The light inside: one surface. */
     scene.lights[0].position.y = 3;
-    assertColor(colorAlong(&scene, eye, origin), 4 * 0.5, 4, 4 * 0.25);
+    assertColorNear(colorAlong(&scene, eye, origin), 4 * 0.5, 4, 4 * 0.25);
     /* An opaque one beside it blocks all the same; one that casts no shadow does not. */
     addObjectToScene(&scene, sphereObject(0, 1.2, 0, 0.3, diffuseOnly(1, 1, 1)));
-    assertColor(colorAlong(&scene, eye, origin), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, eye, origin), 0, 0, 0);
     scene.objects[2].noShadow = true;
-    assertColor(colorAlong(&scene, eye, origin), 2, 4, 1);
+    assertColorNear(colorAlong(&scene, eye, origin), 2, 4, 1);
     freeScene(&scene);
 }
 
@@ -323,7 +300,7 @@ static void patternsAreInObjectSpace(void **state)
             Vector3D p = createVector(0.5 + 2 * i + 1, -0.5, 2 * j + 0.3);
             Color3f color = colorAlong(&scene, addVectors(p, createVector(0, 3, 1)), p);
             bool even = (i + j) % 2 == 0;
-            assertColor(color, even, 0, !even);
+            assertColorNear(color, even, 0, !even);
         }
     /* Stripes: a below one half of the fraction, of negative coordinates too. Gradient: a sawtooth. */
     const double xs[] = {-3.9, -3.1, -2.9, -0.1, 0.1, 0.9, 1.1, 1.9, 2.1};
@@ -332,9 +309,10 @@ static void patternsAreInObjectSpace(void **state)
         double fraction = xs[i] / 2 - floor(xs[i] / 2);
         pattern.kind = PATTERN_STRIPES;
         bool first = fraction < 0.5;
-        assertColor(colorAlong(&scene, addVectors(p, createVector(0, 3, 1)), p), first, 0, !first);
+        assertColorNear(colorAlong(&scene, addVectors(p, createVector(0, 3, 1)), p), first, 0, !first);
         pattern.kind = PATTERN_GRADIENT;
-        assertColor(colorAlong(&scene, addVectors(p, createVector(0, 3, 1)), p), 1 - fraction, 0, fraction);
+        assertColorNear(colorAlong(&scene, addVectors(p, createVector(0, 3, 1)), p), 1 - fraction, 0,
+                        fraction);
     }
     freeScene(&scene);
 }
@@ -353,14 +331,14 @@ static void imagesByNearestTexel(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Color3f color = patternColor(&pattern, createVector(cases[i].x, cases[i].y, 7));
         const Color3f *expected = &texels[cases[i].texel];
-        assertColor(color, (double)expected->r, (double)expected->g, (double)expected->b);
+        assertColorNear(color, (double)expected->r, (double)expected->g, (double)expected->b);
     }
     /* Spherical: u = 1/2 - atan2(z, x) / 2pi, v = 1/2 + asin(y / |p|) / pi. */
     pattern.mapping = MAPPING_SPHERICAL;
-    assertColor(patternColor(&pattern, createVector(1, 1, 0.1)), 1, 0, 0);
-    assertColor(patternColor(&pattern, createVector(1, 1, -0.1)), 0, 1, 0);
-    assertColor(patternColor(&pattern, createVector(-3, -0.1, 0.1)), 0, 0, 1);
-    assertColor(patternColor(&pattern, createVector(-3, -0.1, -0.1)), 1, 1, 0);
+    assertColorNear(patternColor(&pattern, createVector(1, 1, 0.1)), 1, 0, 0);
+    assertColorNear(patternColor(&pattern, createVector(1, 1, -0.1)), 0, 1, 0);
+    assertColorNear(patternColor(&pattern, createVector(-3, -0.1, 0.1)), 0, 0, 1);
+    assertColorNear(patternColor(&pattern, createVector(-3, -0.1, -0.1)), 1, 1, 0);
 }
 
 /* ---- Between and around ---- */
@@ -371,19 +349,19 @@ static void fogAndSky(void **state)
     Scene scene = createScene();
     scene.background = (Background){.bottom = {1, 0, 0}, .top = {0, 0, 1}, .isGradient = true};
     Vector3D origin = createVector(0, 0, 0);
-    assertColor(colorAlong(&scene, origin, createVector(0, 0, -1)), 0.5, 0, 0.5);
-    assertColor(colorAlong(&scene, origin, createVector(0, 1, 0)), 0, 0, 1);
-    assertColor(colorAlong(&scene, origin, createVector(0.8, -0.6, 0)), 0.8, 0, 0.2);
+    assertColorNear(colorAlong(&scene, origin, createVector(0, 0, -1)), 0.5, 0, 0.5);
+    assertColorNear(colorAlong(&scene, origin, createVector(0, 1, 0)), 0, 0, 1);
+    assertColorNear(colorAlong(&scene, origin, createVector(0.8, -0.6, 0)), 0.8, 0, 0.2);
 
     /* The background is infinitely far, so nothing of it is left in fog. */
     scene.fog = (Fog){createColor(0.2f, 0.4f, 0.6f), 5};
-    assertColor(colorAlong(&scene, origin, createVector(0, 0, -1)), 0.2, 0.4, 0.6);
+    assertColorNear(colorAlong(&scene, origin, createVector(0, 0, -1)), 0.2, 0.4, 0.6);
     Material shining = diffuseOnly(0, 0, 0);
     shining.emission = createColor(1, 1, 1);
     addObjectToScene(&scene, sphereObject(0, 0, -9, 2, shining));
     double weight = exp(-7.0 / 5);
-    assertColor(colorAlong(&scene, origin, createVector(0, 0, -1)), weight + 0.2 * (1 - weight),
-                weight + 0.4 * (1 - weight), weight + 0.6 * (1 - weight));
+    assertColorNear(colorAlong(&scene, origin, createVector(0, 0, -1)), weight + 0.2 * (1 - weight),
+                    weight + 0.4 * (1 - weight), weight + 0.6 * (1 - weight));
     /* Each ray of a chain has its own distance. */
     Material mirror = diffuseOnly(0, 0, 0);
     mirror.reflection = createColor(1, 1, 1);
@@ -392,9 +370,9 @@ static void fogAndSky(void **state)
                               .plane = createPlane(createVector(0, 0, 3), createVector(0, 0, -1), mirror)});
     double back = exp(-3.0 / 5), there = exp(-10.0 / 5);
     double seen = there + 0.2 * (1 - there);
-    assertColor(colorAlong(&scene, origin, createVector(0, 0, 1)), back * seen + 0.2 * (1 - back),
-                back * (there + 0.4 * (1 - there)) + 0.4 * (1 - back),
-                back * (there + 0.6 * (1 - there)) + 0.6 * (1 - back));
+    assertColorNear(colorAlong(&scene, origin, createVector(0, 0, 1)), back * seen + 0.2 * (1 - back),
+                    back * (there + 0.4 * (1 - there)) + 0.4 * (1 - back),
+                    back * (there + 0.6 * (1 - there)) + 0.6 * (1 - back));
     freeScene(&scene);
 }
 
@@ -443,7 +421,7 @@ static void samplesAreAMean(void **state)
         renderReference(&scene, framebuffer, &options, &rays);
         /* Not clamped before the mean: so many columns of brightness 8. */
         double expected = 8.0 * columnsRightOf(counts[i], 0.26) / counts[i];
-        assertColor(framebuffer->pixels[0], expected, expected, expected);
+        assertColorNear(framebuffer->pixels[0], expected, expected, expected);
         assert_int_equal(rays.primary, counts[i] * counts[i]);
     }
     freeFramebuffer(framebuffer);

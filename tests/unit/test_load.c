@@ -3,6 +3,7 @@
  */
 #include "base/cancel.h"
 #include "base/files.h"
+#include "loaded_scene.h"
 #include "scene/load.h"
 
 #include <float.h>
@@ -29,22 +30,6 @@
 #define SANITIZED 0
 #endif
 
-/* Load what must be right. */
-static Scene load(const char *yaml)
-{
-    Scene scene;
-    Diagnostics diagnostics = {0};
-    Status status = loadSceneFromText(yaml, strlen(yaml), &scene, &diagnostics);
-    if (!statusIsOk(&status)) {
-        Text text = {0};
-        diagnosticsPrint(&diagnostics, "test", false, &text);
-        fail_msg("%s\n%s\nin:\n%s", status.message, textString(&text), yaml);
-    }
-    assert_int_equal(diagnostics.errors, 0);
-    diagnosticsFree(&diagnostics);
-    return scene;
-}
-
 /* A number written as the radius of a sphere. */
 static double loadNumber(const char *number)
 {
@@ -54,22 +39,6 @@ static double loadNumber(const char *number)
     double value = scene.objects[0].sphere.center.z;
     freeScene(&scene);
     return value;
-}
-
-static bool loads(const char *yaml)
-{
-    Scene scene;
-    Diagnostics diagnostics = {0};
-    Status status = loadSceneFromText(yaml, strlen(yaml), &scene, &diagnostics);
-    assert_true(statusIsOk(&status) == (diagnostics.errors == 0));
-    diagnosticsFree(&diagnostics);
-    freeScene(&scene);
-    return statusIsOk(&status);
-}
-
-static void assertVector(Vector3D v, double x, double y, double z)
-{
-    assert_true(v.x == x && v.y == y && v.z == z);
 }
 
 static void assertColor(Color3f c, float r, float g, float b)

@@ -3,6 +3,7 @@
  */
 #include "base/files.h"
 #include "image/image.h"
+#include "loaded_scene.h"
 #include "scene/load.h"
 
 #include <setjmp.h>
@@ -15,25 +16,6 @@
 #include <unistd.h>
 
 #include <cmocka.h>
-
-static Scene load(const char *yaml)
-{
-    Scene scene;
-    Diagnostics diagnostics = {0};
-    Status status = loadSceneFromText(yaml, strlen(yaml), &scene, &diagnostics);
-    if (!statusIsOk(&status)) {
-        Text text = {0};
-        diagnosticsPrint(&diagnostics, "test", false, &text);
-        fail_msg("%s\n%s\nin:\n%s", status.message, textString(&text), yaml);
-    }
-    diagnosticsFree(&diagnostics);
-    return scene;
-}
-
-static void assertVector(Vector3D v, double x, double y, double z)
-{
-    assert_true(v.x == x && v.y == y && v.z == z);
-}
 
 static void assertColor(Color3f c, float r, float g, float b)
 {

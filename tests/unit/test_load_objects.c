@@ -2,6 +2,7 @@
  * and groups and solids hand down their transform, material and shadow.
  */
 #include "base/files.h"
+#include "loaded_scene.h"
 #include "scene/load.h"
 
 #include <setjmp.h>
@@ -13,38 +14,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-/* Load what must be right. */
-static Scene load(const char *yaml)
-{
-    Scene scene;
-    Diagnostics diagnostics = {0};
-    Status status = loadSceneFromText(yaml, strlen(yaml), &scene, &diagnostics);
-    if (!statusIsOk(&status)) {
-        Text text = {0};
-        diagnosticsPrint(&diagnostics, "test", false, &text);
-        fail_msg("%s\n%s\nin:\n%s", status.message, textString(&text), yaml);
-    }
-    diagnosticsFree(&diagnostics);
-    return scene;
-}
-
-static bool loads(const char *yaml)
-{
-    Scene scene;
-    Diagnostics diagnostics = {0};
-    Status status = loadSceneFromText(yaml, strlen(yaml), &scene, &diagnostics);
-    assert_true(statusIsOk(&status) == (diagnostics.errors == 0));
-    diagnosticsFree(&diagnostics);
-    freeScene(&scene);
-    return statusIsOk(&status);
-}
-
-static void assertVector(Vector3D v, double x, double y, double z)
-{
-    if (!(v.x == x && v.y == y && v.z == z))
-        fail_msg("(%g, %g, %g) is not (%g, %g, %g)", v.x, v.y, v.z, x, y, z);
-}
 
 static void assertNear(Vector3D v, double x, double y, double z)
 {

@@ -1,6 +1,7 @@
 /* The course's tracer: pixels worked out by hand from the handout's formulas, shadows with their nasty
  * cases, the camera, and the same picture at every scale and with any number of threads. */
 #include "base/cancel.h"
+#include "one_pixel.h"
 #include "raytracer.h"
 
 #include <setjmp.h>
@@ -16,30 +17,6 @@ static const Color3f black = {0, 0, 0};
 static Material diffuseOnly(float r, float g, float b)
 {
     return createMaterial(createColor(r, g, b), black, 32);
-}
-
-/* The colour along one ray, seen through a picture of one pixel that looks along it. */
-static Color3f colorAlong(Scene *scene, Vector3D from, Vector3D to)
-{
-    scene->camera.position = from;
-    scene->camera.direction = subVectors(to, from);
-    scene->camera.up = fabs(scene->camera.direction.y) > 0.9 * norm(scene->camera.direction)
-                           ? createVector(0, 0, -1)
-                           : createVector(0, 1, 0);
-    Framebuffer *framebuffer = createFramebuffer(1, 1);
-    RenderOptions options = {.threads = 1};
-    Status status = renderReference(scene, framebuffer, &options, NULL);
-    assert_true(statusIsOk(&status));
-    Color3f color = framebuffer->pixels[0];
-    freeFramebuffer(framebuffer);
-    return color;
-}
-
-static void assertColor(Color3f color, double r, double g, double b)
-{
-    assert_true(fabs((double)color.r - r) <= 1e-6 * fmax(1, r));
-    assert_true(fabs((double)color.g - g) <= 1e-6 * fmax(1, g));
-    assert_true(fabs((double)color.b - b) <= 1e-6 * fmax(1, b));
 }
 
 static void sceneGrowsAndKeepsItsOrder(void **state)
@@ -88,20 +65,20 @@ static void lambertByHand(void **state)
     addSphereToScene(&scene, createSphere(createVector(0, 0, -5), 1.5, diffuseOnly(1, 0, 0)));
     addLightToScene(&scene, createLight(createVector(0, 0, 0), createColor(10, 10, 10)));
     Vector3D eye = createVector(0, 0, 0);
-    assertColor(colorAlong(&scene, eye, createVector(0, 0, -1)), 10 / 12.25, 0, 0);
+    assertColorNear(colorAlong(&scene, eye, createVector(0, 0, -1)), 10 / 12.25, 0, 0);
 
     /* On a plane tilted away: cos = 4/5 at distance 5. */
     scene.objectCount = 0;
     addPlaneToScene(&scene,
                     createPlane(createVector(0, 0, -5), createVector(3, 0, 4), diffuseOnly(0.5f, 1, 2)));
-    assertColor(colorAlong(&scene, eye, createVector(0, 0, -1)), 0.5 * 10 * 0.8 / 25, 10 * 0.8 / 25,
-                2 * 10 * 0.8 / 25);
+    assertColorNear(colorAlong(&scene, eye, createVector(0, 0, -1)), 0.5 * 10 * 0.8 / 25, 10 * 0.8 / 25,
+                    2 * 10 * 0.8 / 25);
 
     /* Lights add up; one without falloff does not grow weaker. */
     Light sun = createLight(createVector(0, 0, 0), createColor(0, 0.25f, 0));
     sun.falloff = FALLOFF_NONE;
     addLightToScene(&scene, sun);
-    assertColor(colorAlong(&scene, eye, createVector(0, 0, -1)), 0.16, 10 * 0.8 / 25 + 0.25 * 0.8, 0.64);
+    assertColorNear(colorAlong(&scene, eye, createVector(0, 0, -1)), 0.16, 10 * 0.8 / 25 + 0.25 * 0.8, 0.64);
     freeScene(&scene);
 }
 
@@ -116,19 +93,19 @@ static void phongByHand(void **state)
     addLightToScene(&scene, createLight(createVector(4, 3, 0), createColor(50, 50, 25)));
     Vector3D eye = createVector(-3, 4, 0), origin = createVector(0, 0, 0);
     double highlight = pow(24.0 / 25, 3);
-    assertColor(colorAlong(&scene, eye, origin), 0.5 * 2 * 0.6, 0.75 * 2 * highlight, 1 * 1 * highlight);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.5 * 2 * 0.6, 0.75 * 2 * highlight, 1 * 1 * highlight);
 
     /* Lambert leaves the highlight out. */
     scene.render.model = MODEL_LAMBERT;
-    assertColor(colorAlong(&scene, eye, origin), 0.6, 0, 0);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.6, 0, 0);
 
     /* From the light's own side R.V is negative: no highlight, also with an odd shininess. */
     scene.render.model = MODEL_PHONG;
-    assertColor(colorAlong(&scene, createVector(10, 0.1, 0), origin), 0.6, 0, 0);
+    assertColorNear(colorAlong(&scene, createVector(10, 0.1, 0), origin), 0.6, 0, 0);
 
     /* A light behind the surface adds nothing, and does not darken. */
     addLightToScene(&scene, createLight(createVector(0, -2, 0), createColor(1000, 1000, 1000)));
-    assertColor(colorAlong(&scene, eye, origin), 0.6, 0.75 * 2 * highlight, highlight);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.6, 0.75 * 2 * highlight, highlight);
     freeScene(&scene);
 }
 
@@ -140,15 +117,15 @@ static void simpleIsTheDiffuseColourOrBlack(void **state)
     addPlaneToScene(&scene,
                     createPlane(createVector(0, 0, 0), createVector(0, 1, 0), diffuseOnly(0.5f, 2, 0)));
     Vector3D eye = createVector(1, 4, 1), origin = createVector(0, 0, 0);
-    assertColor(colorAlong(&scene, eye, origin), 0.5, 2, 0);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.5, 2, 0);
     addLightToScene(&scene, createLight(createVector(0, -3, 0), createColor(9, 9, 9)));
-    assertColor(colorAlong(&scene, eye, origin), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, eye, origin), 0, 0, 0);
     scene.render.shadows = false;
-    assertColor(colorAlong(&scene, eye, origin), 0.5, 2, 0);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.5, 2, 0);
     scene.render.shadows = true;
     /* One light of several is enough, however dim. */
     addLightToScene(&scene, createLight(createVector(0, 300, 0), createColor(1e-6f, 0, 0)));
-    assertColor(colorAlong(&scene, eye, origin), 0.5, 2, 0);
+    assertColorNear(colorAlong(&scene, eye, origin), 0.5, 2, 0);
     freeScene(&scene);
 }
 
@@ -167,16 +144,16 @@ static void blockersCountOnlyBetweenPointAndLight(void **state)
     addLightToScene(&scene, createLight(createVector(0, 0, 0), createColor(1, 1, 1)));
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         scene.lights[0].position.y = cases[i].lightHeight;
-        assertColor(colorAlong(&scene, eye, origin), (double)cases[i].expected, (double)cases[i].expected,
-                    (double)cases[i].expected);
+        assertColorNear(colorAlong(&scene, eye, origin), (double)cases[i].expected, (double)cases[i].expected,
+                        (double)cases[i].expected);
     }
     /* A light exactly on a surface: that surface is not between. */
     scene.lights[0].position.y = 4;
-    assertColor(colorAlong(&scene, eye, origin), 1, 1, 1);
+    assertColorNear(colorAlong(&scene, eye, origin), 1, 1, 1);
     /* Without shadows nothing blocks. */
     scene.lights[0].position.y = 7;
     scene.render.shadows = false;
-    assertColor(colorAlong(&scene, eye, origin), 1, 1, 1);
+    assertColorNear(colorAlong(&scene, eye, origin), 1, 1, 1);
     freeScene(&scene);
 }
 
@@ -198,7 +175,7 @@ static void aLightOnASurfaceIsNotHiddenByIt(void **state)
         if (dot(outward, subVectors(p, light)) < 0.01)
             continue;
         lit++;
-        assertColor(colorAlong(&scene, addVectors(p, createVector(2, 0.5, 0)), p), 0.8, 0.8, 0.8);
+        assertColorNear(colorAlong(&scene, addVectors(p, createVector(2, 0.5, 0)), p), 0.8, 0.8, 0.8);
     }
     assert_true(lit > 500);
     freeScene(&scene);
@@ -215,9 +192,9 @@ static void whatIsVeryNearStillBlocks(void **state)
                   createBox(createVector(1e-9, 5e-9, -1), createVector(2, 1e-8, 1), defaultMaterial()));
     addLightToScene(&scene, createLight(createVector(1, 1, 0), createColor(1, 1, 1)));
     Vector3D origin = createVector(0, 0, 0);
-    assertColor(colorAlong(&scene, createVector(-1, 1, 0), origin), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, createVector(-1, 1, 0), origin), 0, 0, 0);
     scene.lights[0].position.x = -1;
-    assertColor(colorAlong(&scene, createVector(-1, 1, 0), origin), 0.8, 0.8, 0.8);
+    assertColorNear(colorAlong(&scene, createVector(-1, 1, 0), origin), 0.8, 0.8, 0.8);
     freeScene(&scene);
 }
 
@@ -229,9 +206,9 @@ static void insideASphere(void **state)
     scene.render.model = MODEL_LAMBERT;
     addSphereToScene(&scene, createSphere(createVector(0, 0, 0), 2, diffuseOnly(1, 1, 1)));
     addLightToScene(&scene, createLight(createVector(0, 0, 0), createColor(8, 8, 8)));
-    assertColor(colorAlong(&scene, createVector(0, 0, 1), createVector(0, 0, -1)), 2, 2, 2);
+    assertColorNear(colorAlong(&scene, createVector(0, 0, 1), createVector(0, 0, -1)), 2, 2, 2);
     scene.lights[0].position = createVector(0, 0, 5);
-    assertColor(colorAlong(&scene, createVector(0, 0, 1), createVector(0, 0, -1)), 0, 0, 0);
+    assertColorNear(colorAlong(&scene, createVector(0, 0, 1), createVector(0, 0, -1)), 0, 0, 0);
     freeScene(&scene);
 }
 
