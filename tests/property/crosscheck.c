@@ -14,8 +14,9 @@
  *   - shadow_bias, which cannot be exported;
  *   - several samples a pixel some of which are brighter than 1: lights are dimmer where there are samples.
  * What is left to chance is a ray within 1e-6 of an edge, one that leaves a point nearer than POV-Ray's
- * tolerances to the next surface, and the horizon of a plane seen through glass, which POV-Ray ends at a
- * distance of 1e7: at most a few pixels of a scene. Of the seeds 1 to 200, DISTRIBUTION.
+ * tolerances to the next surface, and the horizon of a plane, which POV-Ray ends at a distance of 1e7: at
+ * most a few pixels of a scene. Of the seeds 1 to 1000, 992 have none, 6 have 1 or 2, and the other two, with
+ * several samples of which one is brighter than 1 after all, have 5 and 11.
  */
 #include "base/cancel.h"
 #include "base/threads.h"
