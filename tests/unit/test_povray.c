@@ -129,6 +129,27 @@ static void refusesWhatItCannotSay(void **state)
     status = exportPov(&scene, "a", &pov);
     assert_int_equal(status.code, STATUS_INEXPRESSIBLE);
     assert_non_null(strstr(status.message, "light 2"));
+
+    /* A picture with transparency, also deep in a solid: it would make the surface transparent. */
+    scene.lights[1].color.g = 1;
+    const Color3f texel = {1, 0, 0};
+    Pattern picture = {.kind = PATTERN_IMAGE,
+                       .size = 1,
+                       .width = 1,
+                       .height = 1,
+                       .texels = &texel,
+                       .path = "/tiles.png",
+                       .hasAlpha = true};
+    Object *part = calloc(1, sizeof *part);
+    *part = scene.objects[0];
+    part->material.pattern = &picture;
+    addObjectToScene(&scene, (Object){.kind = SHAPE_CSG, .csg = {.parts = part, .partCount = 1}});
+    status = exportPov(&scene, "a", &pov);
+    assert_int_equal(status.code, STATUS_INEXPRESSIBLE);
+    assert_non_null(strstr(status.message, "tiles.png"));
+    picture.hasAlpha = false;
+    status = exportPov(&scene, "a", &pov);
+    assert_int_equal(status.code, STATUS_OK);
     textFree(&pov);
     freeScene(&scene);
 }
