@@ -97,7 +97,7 @@ _eclairage()
     operands='@(*.yaml|*.yml)'
     ;;
   compare)
-    options='--out --width --height --model --samples --threads --engine --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
+    options='--out --width --height --model --samples --threads --engine --encoding --bit-depth --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
     ;;
   diff)

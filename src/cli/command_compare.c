@@ -410,6 +410,8 @@ int runCompare(const Arguments *arguments)
     if (!statusIsOk(&status))
         return printError(NULL, &status);
 
+    if (arguments->encoding != NOT_GIVEN || arguments->depthChoice != NOT_GIVEN)
+        printNote("compare measures 16-bit linear pictures; --encoding and --bit-depth play no part here");
     size_t count = arguments->operandCount;
     int atOnce = count < MOST_AT_ONCE ? (int)count : MOST_AT_ONCE;
     int threads = chosenThreads(arguments);

@@ -157,3 +157,14 @@ END
     try 0 compare s*.yaml
     [ $SECONDS -lt 7 ] # one after another they would take eight seconds at least
 }
+
+@test "encoding and depth are those of the comparison, whatever is asked for" {
+    command -v povray >/dev/null || skip "povray is not installed"
+    makeScene s.yaml
+    try 0 compare s.yaml --encoding srgb --bit-depth 8 --width 40
+    grep -q '16-bit linear' "$err"
+    try 0 diff eclairage-report/s-ours.png eclairage-report/s-povray.png
+    try 6 diff eclairage-report/s-ours.png eclairage-report/s-difference.png
+    try 0 compare -q s.yaml --bit-depth 16 --encoding linear
+    isEmpty "$err"
+}
