@@ -1,8 +1,6 @@
 /* pov_scale.c - the size at which POV-Ray sees a scene as we do; see pov_scale.h. */
 #include "povray/pov_scale.h"
 
-#include "povray/pov_texture.h"
-
 /* Parts that are a hundred times POV-Ray's shadow tolerance need no help, nor does a camera that is a
  * hundred times its tolerance for hits away from a surface, which is a tenth of that. */
 static const double SMALLEST_PART = 0.1;

@@ -256,15 +256,3 @@ void textAppendPovTexture(Text *pov, const Scene *scene, const Material *materia
         textFree(&layers.texts[i]);
     }
 }
-
-const Material *transmissivePart(const Scene *scene, const Object *object)
-{
-    if (object->kind != SHAPE_CSG)
-        return colorIsBlack(effectiveTransmission(scene, &object->material)) ? NULL : &object->material;
-    for (size_t i = 0; i < object->csg.partCount; i++) {
-        const Material *material = transmissivePart(scene, &object->csg.parts[i]);
-        if (material != NULL)
-            return material;
-    }
-    return NULL;
-}

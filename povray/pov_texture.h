@@ -20,9 +20,6 @@ void textAppendPovColor(Text *pov, Color3f color, double factor);
 void textAppendPovTexture(Text *pov, const Scene *scene, const Material *material, PovFinish finish,
                           double scale, double extent);
 
-/* The first material in the object that rays go through, or NULL. */
-const Material *transmissivePart(const Scene *scene, const Object *object);
-
 /* Append "matrix <...>", the translation times scale. */
 void textAppendPovMatrix(Text *pov, const Matrix *matrix, double scale);
 

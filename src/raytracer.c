@@ -9,7 +9,6 @@
 #include "base/threads.h"
 
 #include <stdatomic.h>
-#include <stdlib.h>
 
 /* ---- Where a ray meets the scene ---- */
 
@@ -31,8 +30,10 @@ static const Object *nearestObject(const Ray *ray, const Scene *scene, Hit *hit)
 bool throwRayThroughScene(Ray ray, Scene scene, Intersection *intersection)
 {
     Hit hit;
-    const Object *object = nearestObject(&ray, &scene, &hit);
-    return object != NULL && intersectsObject(&ray, object, intersection);
+    if (nearestObject(&ray, &scene, &hit) == NULL)
+        return false;
+    *intersection = intersectionAt(&ray, &hit);
+    return true;
 }
 
 /* ---- Shadows ---- */
@@ -72,26 +73,21 @@ static Vector3D offsetStart(const SurfacePoint *point, Vector3D direction)
     return addVectors(point->position, multVector(point->flatNormal, step));
 }
 
-static int compareDistances(const void *a, const void *b)
-{
-    double first = ((const Hit *)a)->distance, second = ((const Hit *)b)->distance;
-    return (first > second) - (first < second);
-}
-
 Color3f effectiveTransmission(const Scene *scene, const Material *material)
 {
     return materialModel(scene, material) == MODEL_SIMPLE ? createColor(0, 0, 0) : material->transmission;
 }
 
-/* Whether rays go into the object: a part of it has a transmission. */
-static bool objectIsTransmissive(const Object *object, const Scene *scene)
+const Material *transmissivePart(const Scene *scene, const Object *object)
 {
     if (object->kind != SHAPE_CSG)
-        return !colorIsBlack(effectiveTransmission(scene, &object->material));
-    for (size_t i = 0; i < object->csg.partCount; i++)
-        if (objectIsTransmissive(&object->csg.parts[i], scene))
-            return true;
-    return false;
+        return colorIsBlack(effectiveTransmission(scene, &object->material)) ? NULL : &object->material;
+    for (size_t i = 0; i < object->csg.partCount; i++) {
+        const Material *material = transmissivePart(scene, &object->csg.parts[i]);
+        if (material != NULL)
+            return material;
+    }
+    return NULL;
 }
 
 /* What is left of the light after all that lies between the point and it: black behind an opaque surface,
@@ -119,7 +115,7 @@ static Color3f lightThatReaches(const Scene *scene, const SurfacePoint *point, c
         if (blocker->noShadow)
             continue;
         size_t before = sink.count;
-        sink.keepAll = objectIsTransmissive(blocker, scene);
+        sink.keepAll = transmissivePart(scene, blocker) != NULL;
         sink.nearest.distance = farthest;
         intersectObject(blocker, &shadowRay, &sink);
         bool blocked = !sink.keepAll && sink.nearest.distance < farthest;
@@ -132,7 +128,7 @@ static Color3f lightThatReaches(const Scene *scene, const SurfacePoint *point, c
 
     /* Filter by what is left, which is transparent, in the order in which the light is met. */
     if (!colorIsBlack(color) && sink.count > 0) {
-        qsort(sink.all, sink.count, sizeof *sink.all, compareDistances);
+        sortHits(&sink);
         for (size_t h = 0; h < sink.count && sink.all[h].distance < farthest; h++)
             color = multColors(color, effectiveTransmission(scene, &sink.all[h].object->material));
     }
@@ -319,7 +315,7 @@ static Media mediaAt(const Scene *scene, Vector3D point)
 {
     Media media = {.count = 0};
     for (size_t i = 0; i < scene->objectCount && media.count < MAX_MEDIA; i++)
-        if (objectIsTransmissive(&scene->objects[i], scene) && objectContains(&scene->objects[i], point))
+        if (transmissivePart(scene, &scene->objects[i]) != NULL && objectContains(&scene->objects[i], point))
             media.objects[media.count++] = &scene->objects[i];
     return media;
 }

@@ -182,6 +182,10 @@ static inline ShadingModel materialModel(const Scene *scene, const Material *mat
 /* What goes through a surface: its transmission, or black where its model has none. */
 Color3f effectiveTransmission(const Scene *scene, const Material *material);
 
+/* The first material in the object, or in the parts of a solid, that rays go through; NULL where they go
+ * through none. */
+const Material *transmissivePart(const Scene *scene, const Object *object);
+
 /* How many rays were traced. */
 typedef struct RayCounts {
     uint64_t primary, shadow, secondary;

@@ -49,6 +49,9 @@ void freeHitSink(HitSink *sink);
 /* Called by shapes: there is a hit at this distance of the ray they were given. */
 void reportHit(HitSink *sink, double distance, int part, double u, double v);
 
+/* Sort all hits by their distance. */
+void sortHits(HitSink *sink);
+
 /* n, or -n where n points the way the ray goes: the normal on the side that is seen. */
 static inline Vector3D turnedToRay(Vector3D n, const Ray *ray)
 {

@@ -15,9 +15,6 @@
 
 #include <stdlib.h>
 
-/* A side is sure when the cosine to the plane is above this. */
-static const double SURE_SIDE = 1e-6;
-
 /* Vectors as text, each written once: a vertex is used by some six triangles. */
 typedef struct VectorTexts {
     Text text;
@@ -58,26 +55,17 @@ static void freeVectorTexts(VectorTexts *texts)
 
 /* ---- The exact surface ---- */
 
-/* Whether all corners' normals are on one side of the triangle, in world space, where POV-Ray asks. */
-static bool normalsAgree(const Object *object, size_t triangle)
+/* Whether POV-Ray would draw the triangle outside a mesh. */
+static bool standsAlone(const Object *object, size_t triangle)
 {
     const MeshData *mesh = object->mesh.data;
     if (!mesh->isSmooth)
         return true;
-    Vector3D corners[3];
+    Vector3D corners[3], normals[3];
     meshCorners(mesh, triangle, corners);
-    Vector3D normal = normalize(triangleCross(corners));
-    if (object->transform != NULL)
-        normal = normalize(transformNormal(&object->transform->objectFromWorld, normal));
-    int front = 0, back = 0;
-    for (int j = 0; j < 3; j++) {
-        Vector3D n = mesh->normals[mesh->triangles[triangle].normals[j]];
-        if (object->transform != NULL)
-            n = normalize(transformNormal(&object->transform->objectFromWorld, n));
-        front += dot(n, normal) > SURE_SIDE;
-        back += dot(n, normal) < -SURE_SIDE;
-    }
-    return front == 3 || back == 3;
+    for (int j = 0; j < 3; j++)
+        normals[j] = mesh->normals[mesh->triangles[triangle].normals[j]];
+    return normalsAgree(object, normalize(triangleCross(corners)), normals);
 }
 
 static void writeTriangle(const MeshData *mesh, size_t triangle, const VectorTexts *vertices,
@@ -102,7 +90,7 @@ static void writeExactSurface(const Object *object, double scale, Text *pov)
     VectorTexts normals = writeVectors(mesh->normals, mesh->normalCount, 1);
     size_t agreeing = 0;
     for (size_t i = 0; i < mesh->triangleCount; i++)
-        agreeing += normalsAgree(object, i);
+        agreeing += standsAlone(object, i);
     size_t others = mesh->triangleCount - agreeing;
 
     /* A single triangle needs no union, of which POV-Ray expects two parts. */
@@ -112,14 +100,14 @@ static void writeExactSurface(const Object *object, double scale, Text *pov)
         if (agreeing > 0)
             textAppend(pov, "union {\n");
         for (size_t i = 0; i < mesh->triangleCount; i++)
-            if (normalsAgree(object, i)) {
+            if (standsAlone(object, i)) {
                 writeTriangle(mesh, i, &vertices, &normals, pov);
                 textAppend(pov, " }\n");
             }
         if (others > 0) {
             textAppend(pov, "mesh {\n");
             for (size_t i = 0; i < mesh->triangleCount; i++)
-                if (!normalsAgree(object, i)) {
+                if (!standsAlone(object, i)) {
                     writeTriangle(mesh, i, &vertices, &normals, pov);
                     textAppend(pov, " }\n");
                 }

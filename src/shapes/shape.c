@@ -76,6 +76,18 @@ void reportHit(HitSink *sink, double distance, int part, double u, double v)
     sink->all[sink->count++] = hit;
 }
 
+static int compareDistances(const void *a, const void *b)
+{
+    double first = ((const Hit *)a)->distance, second = ((const Hit *)b)->distance;
+    return (first > second) - (first < second);
+}
+
+void sortHits(HitSink *sink)
+{
+    if (sink->count > 0)
+        qsort(sink->all, sink->count, sizeof *sink->all, compareDistances);
+}
+
 /* ---- Between world and object space ---- */
 
 void intersectObject(const Object *object, const Ray *ray, HitSink *sink)
@@ -168,17 +180,22 @@ Material materialAt(const Object *object, Vector3D worldPoint)
     return material;
 }
 
+Intersection intersectionAt(const Ray *ray, const Hit *hit)
+{
+    Vector3D position = pointOnRay(ray, hit->distance);
+    return (Intersection){.distance = hit->distance,
+                          .position = position,
+                          .normal = objectNormal(ray, hit, position),
+                          .material = materialAt(hit->object, position)};
+}
+
 bool intersectsObject(const Ray *ray, const Object *object, Intersection *intersection)
 {
     HitSink sink = createHitSink(0, false);
     intersectObject(object, ray, &sink);
     if (!(sink.nearest.distance < INFINITY))
         return false;
-    Vector3D position = pointOnRay(ray, sink.nearest.distance);
-    *intersection = (Intersection){.distance = sink.nearest.distance,
-                                   .position = position,
-                                   .normal = objectNormal(ray, &sink.nearest, position),
-                                   .material = materialAt(sink.nearest.object, position)};
+    *intersection = intersectionAt(ray, &sink.nearest);
     return true;
 }
 

@@ -127,6 +127,9 @@ bool objectBounds(const Object *object, Bounds *bounds);
  * some 2^-50 of it. */
 double hitMagnitude(const Object *object, const Ray *ray, double distance);
 
+/* What there is to know of a hit of the ray. */
+Intersection intersectionAt(const Ray *ray, const Hit *hit);
+
 /* Whether the ray meets the object at t > 0; on a miss the intersection is untouched. */
 bool intersectsObject(const Ray *ray, const Object *object, Intersection *intersection);
 

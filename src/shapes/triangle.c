@@ -141,20 +141,23 @@ static double triangleMagnitude(const Object *object)
     return fmax(largestCoordinate(v[0]), fmax(largestCoordinate(v[1]), largestCoordinate(v[2])));
 }
 
-/* Whether the corners' normals are all on one side of the triangle, in world space, and surely so. */
-static bool normalsAgree(const Object *object)
+/* A side is sure when the cosine to the plane is above this. */
+static const double SURE_SIDE = 1e-6;
+
+/* A normal in world space, of unit length. */
+static Vector3D normalInWorld(const Object *object, Vector3D n)
 {
-    const Triangle *triangle = &object->triangle;
-    Vector3D flat = normalize(areaNormal(triangle->vertices));
-    if (object->transform != NULL)
-        flat = normalize(transformNormal(&object->transform->objectFromWorld, flat));
+    return object->transform != NULL ? normalize(transformNormal(&object->transform->objectFromWorld, n)) : n;
+}
+
+bool normalsAgree(const Object *object, Vector3D flat, const Vector3D normals[3])
+{
+    flat = normalInWorld(object, flat);
     int front = 0, back = 0;
     for (int i = 0; i < 3; i++) {
-        Vector3D n = triangle->normals[i];
-        if (object->transform != NULL)
-            n = normalize(transformNormal(&object->transform->objectFromWorld, n));
-        front += dot(n, flat) > 1e-6;
-        back += dot(n, flat) < -1e-6;
+        double cosine = dot(normalInWorld(object, normals[i]), flat);
+        front += cosine > SURE_SIDE;
+        back += cosine < -SURE_SIDE;
     }
     return front == 3 || back == 3;
 }
@@ -163,7 +166,8 @@ static bool normalsAgree(const Object *object)
 static void triangleWritePov(const Object *object, double scale, Text *pov)
 {
     const Triangle *triangle = &object->triangle;
-    bool inMesh = triangle->isSmooth && !normalsAgree(object);
+    bool inMesh = triangle->isSmooth &&
+                  !normalsAgree(object, normalize(areaNormal(triangle->vertices)), triangle->normals);
     textAppend(pov, inMesh ? "mesh { " : "");
     textAppend(pov, triangle->isSmooth ? "smooth_triangle { " : "triangle { ");
     for (int i = 0; i < 3; i++) {

@@ -1,7 +1,12 @@
 /* random_shapes.c - shapes at random; see random_shapes.h. */
 #include "random_shapes.h"
 
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
 #include <stdint.h>
+
+#include <cmocka.h>
 
 static uint64_t seed = 88172645463325252u;
 
@@ -223,4 +228,13 @@ bool boundsHold(const Bounds *bounds, Vector3D p, double slack)
 {
     return p.x >= bounds->min.x - slack && p.y >= bounds->min.y - slack && p.z >= bounds->min.z - slack &&
            p.x <= bounds->max.x + slack && p.y <= bounds->max.y + slack && p.z <= bounds->max.z + slack;
+}
+
+HitSink allHits(const Object *object, const Ray *ray)
+{
+    HitSink sink = createHitSink(0, true);
+    intersectObject(object, ray, &sink);
+    assert_false(sink.outOfMemory);
+    sortHits(&sink);
+    return sink;
 }

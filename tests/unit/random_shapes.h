@@ -37,4 +37,7 @@ double distanceToSurface(const Object *object, Vector3D p);
 /* Whether the box, or a little more, holds the point. */
 bool boundsHold(const Bounds *bounds, Vector3D p, double slack);
 
+/* All hits of the ray, sorted; the caller frees the sink. */
+HitSink allHits(const Object *object, const Ray *ray);
+
 #endif

@@ -28,22 +28,6 @@ static Object sphereOf(double x, double radius, float red)
     return (Object){.kind = SHAPE_SPHERE, .sphere = createSphere(createVector(x, 0, 0), radius, material)};
 }
 
-static int compareDistances(const void *a, const void *b)
-{
-    double first = ((const Hit *)a)->distance, second = ((const Hit *)b)->distance;
-    return (first > second) - (first < second);
-}
-
-static HitSink allHits(const Object *object, const Ray *ray)
-{
-    HitSink sink = createHitSink(0, true);
-    intersectObject(object, ray, &sink);
-    assert_false(sink.outOfMemory);
-    if (sink.count > 0)
-        qsort(sink.all, sink.count, sizeof *sink.all, compareDistances);
-    return sink;
-}
-
 static void twoSpheresByHand(void **state)
 {
     (void)state;

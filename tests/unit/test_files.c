@@ -6,6 +6,7 @@
 #define _XOPEN_SOURCE 700
 #include "base/cancel.h"
 #include "base/files.h"
+#include "file_checks.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -46,23 +47,6 @@ static int leaveFolder(void **state)
     int left = stat(folder, &info) == 0;
     free(folder);
     return left;
-}
-
-static size_t countEntries(const char *path)
-{
-    DIR *entries = opendir(path);
-    assert_non_null(entries);
-    size_t count = 0;
-    while (readdir(entries) != NULL)
-        count++;
-    closedir(entries);
-    return count - 2; /* . and .. */
-}
-
-static void assertOk(Status status)
-{
-    if (!statusIsOk(&status))
-        fail_msg("%s", status.message);
 }
 
 /* A failure of this code whose message holds both texts. */

@@ -7,6 +7,7 @@
 #define _XOPEN_SOURCE 700
 #include "base/cancel.h"
 #include "base/files.h"
+#include "file_checks.h"
 #include "image/image.h"
 
 #include <setjmp.h>
@@ -43,23 +44,6 @@ static int leaveFolder(void **state)
     removeFolder(folder);
     free(folder);
     return 0;
-}
-
-static size_t countEntries(const char *path)
-{
-    DIR *entries = opendir(path);
-    assert_non_null(entries);
-    size_t count = 0;
-    while (readdir(entries) != NULL)
-        count++;
-    closedir(entries);
-    return count - 2; /* . and .. */
-}
-
-static void assertOk(Status status)
-{
-    if (!statusIsOk(&status))
-        fail_msg("%s", status.message);
 }
 
 static void assertFails(Status status, const char *first, const char *second)

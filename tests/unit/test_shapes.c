@@ -174,23 +174,6 @@ static void hitsLieOnTheSurfaceAndNothingIsNearer(void **state)
     }
 }
 
-static int compareDistances(const void *a, const void *b)
-{
-    double first = ((const Hit *)a)->distance, second = ((const Hit *)b)->distance;
-    return (first > second) - (first < second);
-}
-
-/* All hits of a ray, sorted. */
-static HitSink allHits(const Object *object, const Ray *ray)
-{
-    HitSink sink = createHitSink(0, true);
-    intersectObject(object, ray, &sink);
-    assert_false(sink.outOfMemory);
-    if (sink.count > 0)
-        qsort(sink.all, sink.count, sizeof *sink.all, compareDistances);
-    return sink;
-}
-
 /* Between two hits a ray is all inside or all outside, and at each it changes over. So no hit is missing and
  * none is too many, wherever the ray starts. */
 static void everyHitIsReported(void **state)
