@@ -9,12 +9,14 @@
 #include "base/threads.h"
 
 #include <stdatomic.h>
+#include <stdlib.h>
 
 /* ---- Where a ray meets the scene ---- */
 
-/* The nearest object that the ray meets, or NULL; hit says where, and on which of its parts. */
-static const Object *nearestObject(const Ray *ray, const Scene *scene, Hit *hit)
+/* SurfaceFinder's nearest: look at all objects. */
+static const Object *findNearest(const SurfaceFinder *finder, const Ray *ray, Hit *hit)
 {
+    const Scene *scene = finder->scene;
     const Object *nearest = NULL;
     HitSink sink = createHitSink(0, false);
     for (size_t i = 0; i < scene->objectCount; i++) {
@@ -30,27 +32,24 @@ static const Object *nearestObject(const Ray *ray, const Scene *scene, Hit *hit)
 bool throwRayThroughScene(Ray ray, Scene scene, Intersection *intersection)
 {
     Hit hit;
-    if (nearestObject(&ray, &scene, &hit) == NULL)
+    SurfaceFinder finder = {.scene = &scene};
+    if (findNearest(&finder, &ray, &hit) == NULL)
         return false;
     *intersection = intersectionAt(&ray, &hit);
     return true;
 }
 
+SurfacePoint surfacePointAt(const Ray *ray, const Object *object, const Hit *hit)
+{
+    SurfacePoint point = {.object = object, .hit = *hit};
+    point.position = pointOnRay(ray, hit->distance);
+    point.normal = objectNormal(ray, hit, point.position);
+    point.flatNormal = objectFlatNormal(hit, point.normal);
+    point.offset = hitMagnitude(hit->object, ray, hit->distance) * ROUNDING_MARGIN;
+    return point;
+}
+
 /* ---- Shadows ---- */
-
-/* How many times the largest number in a computation its result may be wrong, with a wide margin: a
- * few roundings of 2^-53 each. */
-static const double ROUNDING_MARGIN = 0x1p-40;
-
-/* A point where a ray met a surface, ready to send further rays from. */
-typedef struct SurfacePoint {
-    const Object *object; /* the whole object; hit.object is its part */
-    Hit hit;
-    Vector3D position;
-    Vector3D normal;     /* turned to the ray's side */
-    Vector3D flatNormal; /* of the surface itself, where normal is interpolated; on either side */
-    double offset;       /* how far to step off the surface */
-} SurfacePoint;
 
 /* Shadow acne, and what to do about it (handout, exercise 04, questions 03 and 04). The computed point
  * is not on the surface but, by rounding, a little above or below it. From below, the ray to the light
@@ -90,34 +89,38 @@ const Material *transmissivePart(const Scene *scene, const Object *object)
     return NULL;
 }
 
-/* What is left of the light after all that lies between the point and it: black behind an opaque surface,
- * times the transmission of each transparent one that it crosses. */
-static Color3f lightThatReaches(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving)
+ShadowRay shadowRayTo(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving)
 {
     bool ownRule = isnan(scene->render.shadowBias);
     Vector3D start = ownRule ? offsetStart(point, arriving->direction) : point->position;
-    Ray shadowRay = createRay(start, arriving->direction);
-    double farthest = INFINITY;
+    ShadowRay shadow = {.ray = createRay(start, arriving->direction),
+                        .above = ownRule ? 0 : scene->render.shadowBias,
+                        .farthest = INFINITY};
     if (isfinite(arriving->distance)) {
         Vector3D toLight = subVectors(arriving->position, start);
         double distance = norm(toLight);
-        shadowRay.direction = normalize(toLight);
-        farthest = distance;
+        shadow.ray.direction = normalize(toLight);
+        shadow.farthest = distance;
         if (ownRule)
-            farthest -= (distance + largestCoordinate(arriving->position)) * ROUNDING_MARGIN;
+            shadow.farthest -= (distance + largestCoordinate(arriving->position)) * ROUNDING_MARGIN;
     }
+    return shadow;
+}
 
+Color3f lightThroughObjects(const Scene *scene, const uint32_t *objects, size_t count,
+                            const ShadowRay *shadow, Color3f color)
+{
     /* A blocker counts only between the point and the light. Of an opaque one any hit will do. */
-    Color3f color = arriving->color;
-    HitSink sink = createHitSink(ownRule ? 0 : scene->render.shadowBias, true);
-    for (size_t i = 0; i < scene->objectCount && !colorIsBlack(color); i++) {
-        const Object *blocker = &scene->objects[i];
+    double farthest = shadow->farthest;
+    HitSink sink = createHitSink(shadow->above, true);
+    for (size_t i = 0; i < count && !colorIsBlack(color); i++) {
+        const Object *blocker = &scene->objects[objects != NULL ? objects[i] : i];
         if (blocker->noShadow)
             continue;
         size_t before = sink.count;
         sink.keepAll = transmissivePart(scene, blocker) != NULL;
         sink.nearest.distance = farthest;
-        intersectObject(blocker, &shadowRay, &sink);
+        intersectObject(blocker, &shadow->ray, &sink);
         bool blocked = !sink.keepAll && sink.nearest.distance < farthest;
         for (size_t h = before; h < sink.count && !blocked; h++)
             blocked = sink.all[h].distance < farthest &&
@@ -136,23 +139,27 @@ static Color3f lightThatReaches(const Scene *scene, const SurfacePoint *point, c
     return color;
 }
 
+/* SurfaceFinder's lightAlong: look at all objects. */
+static Color3f findLight(const SurfaceFinder *finder, const ShadowRay *shadow, Color3f color)
+{
+    return lightThroughObjects(finder->scene, NULL, finder->scene->objectCount, shadow, color);
+}
+
+/* What is left of the light after all that lies between the point and it. */
+static Color3f lightThatReaches(const SurfaceFinder *finder, const SurfacePoint *point,
+                                const ArrivingLight *arriving)
+{
+    ShadowRay shadow = shadowRayTo(finder->scene, point, arriving);
+    return finder->lightAlong(finder, &shadow, arriving->color);
+}
+
 /* ---- What leaves a surface ---- */
 
-/* The transparent objects that a ray is in, the one entered last at the end. */
-enum {
-    MAX_MEDIA = 64
-};
-typedef struct Media {
-    const Object *objects[MAX_MEDIA];
-    int count;
-} Media;
-
-static Color3f traceRay(const Ray *ray, const Scene *scene, const Media *media, int depth, RayCounts *counts);
-
 /* The simple model: the diffuse colour where a light reaches the point, or where that is not asked. */
-static Color3f shadeSimple(const Scene *scene, const SurfacePoint *point, const Material *material,
+static Color3f shadeSimple(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
                            RayCounts *counts)
 {
+    const Scene *scene = finder->scene;
     if (!scene->render.shadows || scene->lightCount == 0)
         return material->diffuse;
     for (size_t i = 0; i < scene->lightCount; i++) {
@@ -163,7 +170,7 @@ static Color3f shadeSimple(const Scene *scene, const SurfacePoint *point, const 
             /* Falloff, cone and colour play no part. */
             arriving.color = createColor(1, 1, 1);
             counts->shadow++;
-            if (!colorIsBlack(lightThatReaches(scene, point, &arriving)))
+            if (!colorIsBlack(lightThatReaches(finder, point, &arriving)))
                 return material->diffuse;
         }
     }
@@ -171,9 +178,10 @@ static Color3f shadeSimple(const Scene *scene, const SurfacePoint *point, const 
 }
 
 /* The light of all lamps that the surface returns towards the ray's origin. */
-static Color3f shadeLights(const Scene *scene, const SurfacePoint *point, const Material *material,
+static Color3f shadeLights(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
                            Vector3D v, RayCounts *counts)
 {
+    const Scene *scene = finder->scene;
     ShadingModel model = materialModel(scene, material);
     bool hasHighlight = model >= MODEL_PHONG && !colorIsBlack(material->specular);
     Color3f diffuse = createColor(0, 0, 0), highlight = createColor(0, 0, 0);
@@ -188,7 +196,7 @@ static Color3f shadeLights(const Scene *scene, const SurfacePoint *point, const 
                 continue;
             if (scene->render.shadows) {
                 counts->shadow++;
-                arriving.color = lightThatReaches(scene, point, &arriving);
+                arriving.color = lightThatReaches(finder, point, &arriving);
                 if (colorIsBlack(arriving.color))
                     continue;
             }
@@ -232,52 +240,56 @@ static double crossSurface(const Media *media, const Object *object, double ior,
 }
 
 /* What comes along the mirrored ray. */
-static Color3f traceMirrored(const Scene *scene, const SurfacePoint *point, const Ray *ray,
+static Color3f traceMirrored(const SurfaceFinder *finder, const SurfacePoint *point, const Ray *ray,
                              const Media *media, int depth, RayCounts *counts)
 {
     Vector3D direction = normalize(reflect(ray->direction, point->normal));
     Ray mirrored = createRay(offsetStart(point, direction), direction);
     counts->secondary++;
-    return traceRay(&mirrored, scene, media, depth + 1, counts);
+    return traceRay(finder, &mirrored, media, depth + 1, counts);
 }
 
-/* The colour that leaves the point towards the ray's origin. */
-static Color3f shade(const Scene *scene, const SurfacePoint *point, const Ray *ray, const Media *media,
-                     int depth, RayCounts *counts)
+Color3f addSecondaryRays(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
+                         const Ray *ray, const Media *media, int depth, Color3f color, RayCounts *counts)
 {
-    Material material = materialAt(point->hit.object, point->position);
-    if (materialModel(scene, &material) == MODEL_SIMPLE)
-        return shadeSimple(scene, point, &material, counts);
-    Color3f color = shadeLights(scene, point, &material, multVector(ray->direction, -1), counts);
-
-    if (!colorIsBlack(material.transmission)) {
+    if (!colorIsBlack(material->transmission)) {
         /* Snell's law: the refracted direction is r d + (r c - sqrt(k)) n, with c = -n.d, r the ratio of
          * the indices and k = 1 - r^2 (1 - c^2); where k < 0 the reflection is total (Heckbert 1989,
          * "Derivation of refraction formulas", in An Introduction to Ray Tracing). */
         Media behind;
-        double r = crossSurface(media, point->object, (double)material.ior, &behind);
+        double r = crossSurface(media, point->object, (double)material->ior, &behind);
         double c = -dot(point->normal, ray->direction);
         double k = 1 + r * r * (c * c - 1);
         if (k < 0)
-            return addColors(color, traceMirrored(scene, point, ray, media, depth, counts));
+            return addColors(color, traceMirrored(finder, point, ray, media, depth, counts));
         Vector3D direction =
             addVectors(multVector(ray->direction, r), multVector(point->normal, r * c - sqrt(k)));
         direction = r == 1 ? ray->direction : normalize(direction);
         Ray refracted = createRay(offsetStart(point, direction), direction);
         counts->secondary++;
-        Color3f through = traceRay(&refracted, scene, &behind, depth + 1, counts);
-        color = addColors(color, multColors(through, material.transmission));
+        Color3f through = traceRay(finder, &refracted, &behind, depth + 1, counts);
+        color = addColors(color, multColors(through, material->transmission));
     }
-    if (!colorIsBlack(material.reflection)) {
-        Color3f mirrored = traceMirrored(scene, point, ray, media, depth, counts);
-        color = addColors(color, multColors(material.reflection, mirrored));
+    if (!colorIsBlack(material->reflection)) {
+        Color3f mirrored = traceMirrored(finder, point, ray, media, depth, counts);
+        color = addColors(color, multColors(material->reflection, mirrored));
     }
     return color;
 }
 
+Color3f shade(const SurfaceFinder *finder, const SurfacePoint *point, const Ray *ray, const Media *media,
+              int depth, RayCounts *counts)
+{
+    Material material = materialAt(point->hit.object, point->position);
+    if (materialModel(finder->scene, &material) == MODEL_SIMPLE)
+        return shadeSimple(finder, point, &material, counts);
+    Color3f color = shadeLights(finder, point, &material, multVector(ray->direction, -1), counts);
+    return addSecondaryRays(finder, point, &material, ray, media, depth, color, counts);
+}
+
 /* ---- One ray ---- */
 
-static Color3f backgroundColor(const Background *background, const Ray *ray)
+Color3f backgroundColor(const Background *background, const Ray *ray)
 {
     if (!background->isGradient)
         return background->bottom;
@@ -285,8 +297,7 @@ static Color3f backgroundColor(const Background *background, const Ray *ray)
     return mixColors(background->bottom, background->top, t);
 }
 
-/* What is left of a colour behind fog, and the fog's own. */
-static Color3f throughFog(const Fog *fog, Color3f color, double distance)
+Color3f throughFog(const Fog *fog, Color3f color, double distance)
 {
     if (!(fog->distance > 0))
         return color;
@@ -294,29 +305,52 @@ static Color3f throughFog(const Fog *fog, Color3f color, double distance)
     return addColors(scaleColor(fog->color, 1 - weight), scaleColor(color, (double)(float)weight));
 }
 
-/* The colour that comes along the ray. */
-static Color3f traceRay(const Ray *ray, const Scene *scene, const Media *media, int depth, RayCounts *counts)
+Color3f traceRay(const SurfaceFinder *finder, const Ray *ray, const Media *media, int depth,
+                 RayCounts *counts)
 {
+    const Scene *scene = finder->scene;
     if (depth > scene->render.maxDepth || cancelRequested())
         return createColor(0, 0, 0);
-    SurfacePoint point;
-    point.object = nearestObject(ray, scene, &point.hit);
-    if (point.object == NULL)
+    Hit hit;
+    const Object *object = finder->nearest(finder, ray, &hit);
+    if (object == NULL)
         return throughFog(&scene->fog, backgroundColor(&scene->background, ray), INFINITY);
-    point.position = pointOnRay(ray, point.hit.distance);
-    point.normal = objectNormal(ray, &point.hit, point.position);
-    point.flatNormal = objectFlatNormal(&point.hit, point.normal);
-    point.offset = hitMagnitude(point.hit.object, ray, point.hit.distance) * ROUNDING_MARGIN;
-    return throughFog(&scene->fog, shade(scene, &point, ray, media, depth, counts), point.hit.distance);
+    SurfacePoint point = surfacePointAt(ray, object, &hit);
+    return throughFog(&scene->fog, shade(finder, &point, ray, media, depth, counts), hit.distance);
 }
 
-/* The transparent objects that contain the point, in the order of the scene. */
-static Media mediaAt(const Scene *scene, Vector3D point)
+/* ---- The media round the camera ---- */
+
+uint32_t *findTransparentObjects(const Scene *scene, size_t *count, bool *failed)
+{
+    uint32_t *found = NULL;
+    size_t capacity = 0;
+    *count = 0;
+    *failed = false;
+    for (size_t i = 0; i < scene->objectCount; i++) {
+        if (transmissivePart(scene, &scene->objects[i]) == NULL)
+            continue;
+        if (*count == capacity) {
+            capacity = capacity == 0 ? 16 : 2 * capacity;
+            uint32_t *larger = realloc(found, capacity * sizeof *larger);
+            if (larger == NULL) {
+                free(found);
+                *failed = true;
+                return NULL;
+            }
+            found = larger;
+        }
+        found[(*count)++] = (uint32_t)i;
+    }
+    return found;
+}
+
+Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point)
 {
     Media media = {.count = 0};
-    for (size_t i = 0; i < scene->objectCount && media.count < MAX_MEDIA; i++)
-        if (transmissivePart(scene, &scene->objects[i]) != NULL && objectContains(&scene->objects[i], point))
-            media.objects[media.count++] = &scene->objects[i];
+    for (size_t i = 0; i < count && media.count < MAX_MEDIA; i++)
+        if (objectContains(&scene->objects[objects[i]], point))
+            media.objects[media.count++] = &scene->objects[objects[i]];
     return media;
 }
 
@@ -327,7 +361,9 @@ enum {
 };
 
 typedef struct Rendering {
-    const Scene *scene;
+    SurfaceFinder finder;
+    const uint32_t *transparent; /* numbers of the transparent objects */
+    size_t transparentCount;
     Framebuffer *framebuffer;
     const RenderOptions *options;
     CameraFrame frame;
@@ -340,7 +376,7 @@ typedef struct Rendering {
 /* The mean of samples x samples rays, evenly spread; of one, through the middle. */
 static Color3f renderPixel(const Rendering *rendering, int x, int y, RayCounts *counts)
 {
-    const Scene *scene = rendering->scene;
+    const Scene *scene = rendering->finder.scene;
     const Framebuffer *framebuffer = rendering->framebuffer;
     int n = scene->render.samples;
     double sum[3] = {0, 0, 0};
@@ -348,10 +384,11 @@ static Color3f renderPixel(const Rendering *rendering, int x, int y, RayCounts *
         for (int i = 0; i < n; i++) {
             Ray ray = cameraRay(&rendering->frame, x + (i + 0.5) / n, y + (j + 0.5) / n, framebuffer->width,
                                 framebuffer->height);
-            Media media = rendering->frame.projection == PROJECTION_PERSPECTIVE ? rendering->media
-                                                                                : mediaAt(scene, ray.origin);
+            Media media = rendering->media;
+            if (rendering->frame.projection != PROJECTION_PERSPECTIVE)
+                media = mediaAmong(scene, rendering->transparent, rendering->transparentCount, ray.origin);
             counts->primary++;
-            Color3f color = traceRay(&ray, scene, &media, 1, counts);
+            Color3f color = traceRay(&rendering->finder, &ray, &media, 1, counts);
             if (n == 1)
                 return color;
             sum[0] += (double)color.r;
@@ -392,14 +429,22 @@ Status renderReference(const Scene *scene, Framebuffer *framebuffer, const Rende
 {
     size_t columns = ((size_t)framebuffer->width + TILE_SIZE - 1) / TILE_SIZE;
     size_t rows = ((size_t)framebuffer->height + TILE_SIZE - 1) / TILE_SIZE;
-    Rendering rendering = {.scene = scene,
+    size_t transparentCount;
+    bool failed;
+    uint32_t *transparent = findTransparentObjects(scene, &transparentCount, &failed);
+    if (failed)
+        return statusOutOfMemory();
+    Rendering rendering = {.finder = {scene, findNearest, findLight},
+                           .transparent = transparent,
+                           .transparentCount = transparentCount,
                            .framebuffer = framebuffer,
                            .options = options,
                            .frame = cameraFrame(&scene->camera, framebuffer->width, framebuffer->height),
-                           .media = mediaAt(scene, scene->camera.position),
+                           .media = mediaAmong(scene, transparent, transparentCount, scene->camera.position),
                            .tileColumns = columns,
                            .tileCount = columns * rows};
     Status status = runTasks(rendering.tileCount, options->threads, renderTile, &rendering);
+    free(transparent);
     if (counts != NULL)
         *counts = (RayCounts){
             .primary = rendering.primary, .shadow = rendering.shadow, .secondary = rendering.secondary};

@@ -191,6 +191,85 @@ typedef struct RayCounts {
     uint64_t primary, shadow, secondary;
 } RayCounts;
 
+/* ---- What every engine shares ----
+ *
+ * Engines differ in how they find the surfaces that a ray meets; what happens there is the same for all, and
+ * so is every rounding of it. */
+
+/* A point where a ray met a surface, ready to send further rays from. */
+typedef struct SurfacePoint {
+    const Object *object; /* the whole object; hit.object is its part */
+    Hit hit;
+    Vector3D position;
+    Vector3D normal;     /* turned to the ray's side */
+    Vector3D flatNormal; /* of the surface itself, where normal is interpolated; on either side */
+    double offset;       /* how far to step off the surface */
+} SurfacePoint;
+
+/* How many times the largest number in a computation its result may be wrong, with a wide margin: a
+ * few roundings of 2^-53 each. */
+#define ROUNDING_MARGIN 0x1p-40
+
+/* The point where the ray meets the object in this hit. */
+SurfacePoint surfacePointAt(const Ray *ray, const Object *object, const Hit *hit);
+
+/* The transparent objects that a ray is in, the one entered last at the end. */
+enum {
+    MAX_MEDIA = 64
+};
+typedef struct Media {
+    const Object *objects[MAX_MEDIA];
+    int count;
+} Media;
+
+/* Which of these objects, given by their numbers in the scene in rising order, contain the point. */
+Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point);
+
+/* The numbers of the scene's transparent objects in rising order, which the caller frees; NULL where there
+ * are none, and with *failed set when memory runs out. */
+uint32_t *findTransparentObjects(const Scene *scene, size_t *count, bool *failed);
+
+/* The way from a surface to a light: what blocks lies at above < t < farthest. */
+typedef struct ShadowRay {
+    Ray ray;
+    double above, farthest;
+} ShadowRay;
+
+ShadowRay shadowRayTo(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving);
+
+/* What is left of the light behind these objects of the scene, given by their numbers in rising order; NULL:
+ * behind all of them. Black behind an opaque surface, times the transmission of each transparent one that it
+ * crosses. */
+Color3f lightThroughObjects(const Scene *scene, const uint32_t *objects, size_t count,
+                            const ShadowRay *shadow, Color3f color);
+
+/* How an engine finds surfaces; an engine's own struct begins with it. */
+typedef struct SurfaceFinder SurfaceFinder;
+struct SurfaceFinder {
+    const Scene *scene;
+    /* As throwRayThroughScene: the nearest object that the ray meets, or NULL; hit says where, and on which
+     * of its parts. */
+    const Object *(*nearest)(const SurfaceFinder *finder, const Ray *ray, Hit *hit);
+    /* As lightThroughObjects behind all objects. */
+    Color3f (*lightAlong)(const SurfaceFinder *finder, const ShadowRay *shadow, Color3f color);
+};
+
+/* The colour that comes along the ray, number depth in its chain (the camera's is 1), within these media. */
+Color3f traceRay(const SurfaceFinder *finder, const Ray *ray, const Media *media, int depth,
+                 RayCounts *counts);
+
+/* The colour that leaves the point towards the ray's origin. */
+Color3f shade(const SurfaceFinder *finder, const SurfacePoint *point, const Ray *ray, const Media *media,
+              int depth, RayCounts *counts);
+
+/* The part of it that comes along mirrored and refracted rays, added to the color of all else. */
+Color3f addSecondaryRays(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
+                         const Ray *ray, const Media *media, int depth, Color3f color, RayCounts *counts);
+
+/* What a ray sees that meets nothing, and what is left of a color seen through fog, with the fog's own. */
+Color3f backgroundColor(const Background *background, const Ray *ray);
+Color3f throughFog(const Fog *fog, Color3f color, double distance);
+
 typedef struct RenderOptions {
     int threads;                                  /* at least 1 */
     void (*progress)(void *context, double done); /* NULL, or called from any thread; done in 0..1 */

@@ -58,8 +58,17 @@ static double limitOf(const HitSink *sink)
 static void report(void *context, size_t triangle, const TriangleHit *hit)
 {
     Reporting *reporting = context;
-    reportHit(reporting->sink, hit->distance, (int)triangle, hit->share1, hit->share2);
-    reporting->limit = limitOf(reporting->sink);
+    HitSink *sink = reporting->sink;
+    /* Of two triangles met at the same distance the first of the mesh counts, in whatever order they come. */
+    Hit *nearest = &sink->nearest;
+    if (hit->distance * sink->scale == nearest->distance && nearest->object == sink->current &&
+        (int)triangle < nearest->part) {
+        nearest->part = (int)triangle;
+        nearest->u = hit->share1;
+        nearest->v = hit->share2;
+    }
+    reportHit(sink, hit->distance, (int)triangle, hit->share1, hit->share2);
+    reporting->limit = limitOf(sink);
 }
 
 static void meshIntersect(const Object *object, const Ray *ray, HitSink *sink)
