@@ -66,10 +66,14 @@ static inline Vector3D pointOnRay(const Ray *ray, double t)
     return addVectors(ray->origin, multVector(ray->direction, t));
 }
 
-/* The largest of the coordinates' magnitudes: what rounding errors of a point are in proportion to. */
+/* The largest of the coordinates' magnitudes: what rounding errors of a point are in proportion to. A y or z
+ * that is not a number is passed over, an x that is not a number is the result. (Each comparison is written
+ * so that it is one instruction; fmax would be a call of the library.) */
 static inline double largestCoordinate(Vector3D v)
 {
-    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z);
+    double larger = y > x ? y : x;
+    return z > larger ? z : larger;
 }
 
 /* An affine map: where it takes the three axes, and then the translation. */

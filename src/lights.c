@@ -1,4 +1,5 @@
 /* lights.c - what arrives of a light at a point, if nothing is between; see raytracer.h. */
+#include "power.h"
 #include "raytracer.h"
 
 int lightSampleCount(const Light *light)
@@ -30,7 +31,7 @@ static double spotShare(const Light *light, double cosine)
     if (!(cosine > 0))
         return 0;
     double inner = cos(light->innerAngle * pi / 180), outer = cos(light->outerAngle * pi / 180);
-    double share = pow(cosine, light->tightness);
+    double share = power(cosine, light->tightness);
     if (cosine < inner) {
         double s = cosine < outer ? 0 : (cosine - outer) / (inner - outer);
         share *= (3 - 2 * s) * s * s;

@@ -4,6 +4,7 @@
  * in the order in which POV-Ray does it, so that the two pictures can agree in every bit.
  */
 #include "shading.h"
+#include "power.h"
 
 Material createMaterial(Color3f diffuse, Color3f specular, float shininess)
 {
@@ -28,7 +29,7 @@ Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, V
     double cosine = dot(r, v);
     if (!(cosine > 0))
         return createColor(0, 0, 0);
-    return scaleColor(light, pow(cosine, (double)material->shininess));
+    return scaleColor(light, power(cosine, (double)material->shininess));
 }
 
 Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v)
@@ -38,5 +39,5 @@ Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vect
     double cosine = length > 0 ? dot(half, n) / length : 0;
     if (!(cosine > 0))
         return createColor(0, 0, 0);
-    return scaleColor(light, pow(cosine, (double)material->shininess));
+    return scaleColor(light, power(cosine, (double)material->shininess));
 }

@@ -12,10 +12,11 @@ cd "$(dirname "$0")/.." || exit 1
 
 table='
 base:
+power:
 geometry:   base
 colors:     base
 patterns:   geometry colors
-shading:    patterns
+shading:    patterns power
 shapes:     shading
 raytracer:  shapes
 camera:     raytracer

@@ -51,6 +51,23 @@ static void normalizesEveryLength(void **state)
     assertVector(normalize(createVector(0, DBL_TRUE_MIN, 0)), 0, 1, 0);
 }
 
+static void findsTheLargestCoordinate(void **state)
+{
+    (void)state;
+    const double values[] = {0, -0.0, DBL_TRUE_MIN, -1, 1, 2.5, -3, 1e300, -INFINITY};
+    const int count = sizeof values / sizeof *values;
+    for (int i = 0; i < count * count * count; i++) {
+        double x = values[i % count], y = values[i / count % count], z = values[i / count / count];
+        double largest = largestCoordinate(createVector(x, y, z));
+        assert_true(largest == fmax(fabs(x), fmax(fabs(y), fabs(z))));
+        assert_false(signbit(largest));
+    }
+    assert_true(isnan(largestCoordinate(createVector(NAN, 1, INFINITY))));
+    assert_true(largestCoordinate(createVector(1, NAN, -2)) == 2);
+    assert_true(largestCoordinate(createVector(-3, 1, NAN)) == 3);
+    assert_true(isnan(largestCoordinate(createVector(NAN, NAN, NAN))));
+}
+
 static void clampsColors(void **state)
 {
     (void)state;
@@ -113,9 +130,13 @@ static void quantizesAsSpecified(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reflectsAsInTheHandout), cmocka_unit_test(crossIsRightHanded),
-        cmocka_unit_test(normalizesEveryLength),  cmocka_unit_test(clampsColors),
-        cmocka_unit_test(putsPixelsInsideOnly),   cmocka_unit_test(countsWhatAPictureCannotHold),
+        cmocka_unit_test(reflectsAsInTheHandout),
+        cmocka_unit_test(crossIsRightHanded),
+        cmocka_unit_test(normalizesEveryLength),
+        cmocka_unit_test(findsTheLargestCoordinate),
+        cmocka_unit_test(clampsColors),
+        cmocka_unit_test(putsPixelsInsideOnly),
+        cmocka_unit_test(countsWhatAPictureCannotHold),
         cmocka_unit_test(quantizesAsSpecified),
     };
     return cmocka_run_group_tests_name("geometry and colours", tests, NULL, NULL);
