@@ -16,10 +16,7 @@ CameraFrame cameraFrame(const Camera *camera, int width, int height)
 
 Ray cameraRay(const CameraFrame *frame, double x, double y, int width, int height)
 {
-    double u = x / width - 0.5;
-    double v = (height - y) / height - 0.5;
     bool orthographic = frame->projection == PROJECTION_ORTHOGRAPHIC;
-    Vector3D base = orthographic ? frame->position : frame->forward;
-    Vector3D sum = addVectors(addVectors(base, multVector(frame->right, u)), multVector(frame->up, v));
+    Vector3D sum = pictureVector(frame, orthographic ? frame->position : frame->forward, x, y, width, height);
     return orthographic ? createRay(sum, frame->forward) : createRay(frame->position, normalize(sum));
 }

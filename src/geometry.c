@@ -1,13 +1,11 @@
 /* geometry.c - points, directions and rays; see geometry.h. */
 #include "geometry.h"
 
-#include <float.h>
-
 Vector3D normalize(Vector3D v)
 {
     double squared = dot(v, v);
     /* Bring vectors whose square leaves the range of a double to a size where it does not. */
-    if (!(squared > DBL_MIN && squared < DBL_MAX)) {
+    if (!isUsualSquare(squared)) {
         double largest = largestCoordinate(v);
         if (largest == 0 || !isfinite(largest))
             return v;
@@ -16,12 +14,7 @@ Vector3D normalize(Vector3D v)
         v = (Vector3D){ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent)};
         squared = dot(v, v);
     }
-    return multVector(v, 1 / sqrt(squared));
-}
-
-Vector3D reflect(Vector3D v, Vector3D n)
-{
-    return subVectors(v, multVector(n, 2.0 * dot(v, n)));
+    return normalizeUsual(v, squared);
 }
 
 Matrix identityMatrix(void)

@@ -6,6 +6,7 @@
 #ifndef ECLAIRAGE_GEOMETRY_H
 #define ECLAIRAGE_GEOMETRY_H
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -122,11 +123,27 @@ bool createTransform(const Matrix *worldFromObject, Transform *transform);
 /* An upper bound of how much longer a vector may get: the largest sum of magnitudes in a row. */
 double matrixNorm(const Matrix *matrix);
 
+/* The direction of v with length 1, of a v whose squared length is `squared`, where that is a usual number.
+ */
+static inline Vector3D normalizeUsual(Vector3D v, double squared)
+{
+    return multVector(v, 1 / sqrt(squared));
+}
+
+/* Neither too small nor too large: then normalize is normalizeUsual. */
+static inline bool isUsualSquare(double squared)
+{
+    return squared > DBL_MIN && squared < DBL_MAX;
+}
+
 /* The direction of v with length 1. The zero vector, which has no direction, stays as it is. Right for
  * every finite v, also where |v|^2 would overflow or vanish. */
 Vector3D normalize(Vector3D v);
 
 /* v mirrored at the plane with unit normal n (handout, exercise 03b): R = V - N * 2.0 * dot(V, N). */
-Vector3D reflect(Vector3D v, Vector3D n);
+static inline Vector3D reflect(Vector3D v, Vector3D n)
+{
+    return subVectors(v, multVector(n, 2.0 * dot(v, n)));
+}
 
 #endif

@@ -89,21 +89,27 @@ const Material *transmissivePart(const Scene *scene, const Object *object)
     return NULL;
 }
 
-ShadowRay shadowRayTo(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving)
+ShadowRay shadowRayFrom(Vector3D start, const ArrivingLight *arriving)
 {
-    bool ownRule = isnan(scene->render.shadowBias);
-    Vector3D start = ownRule ? offsetStart(point, arriving->direction) : point->position;
-    ShadowRay shadow = {.ray = createRay(start, arriving->direction),
-                        .above = ownRule ? 0 : scene->render.shadowBias,
-                        .farthest = INFINITY};
+    ShadowRay shadow = {.ray = createRay(start, arriving->direction), .farthest = INFINITY};
     if (isfinite(arriving->distance)) {
         Vector3D toLight = subVectors(arriving->position, start);
         double distance = norm(toLight);
         shadow.ray.direction = normalize(toLight);
-        shadow.farthest = distance;
-        if (ownRule)
-            shadow.farthest -= (distance + largestCoordinate(arriving->position)) * ROUNDING_MARGIN;
+        shadow.farthest = distance - (distance + largestCoordinate(arriving->position)) * ROUNDING_MARGIN;
     }
+    return shadow;
+}
+
+ShadowRay shadowRayTo(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving)
+{
+    double bias = scene->render.shadowBias;
+    if (isnan(bias))
+        return shadowRayFrom(offsetStart(point, arriving->direction), arriving);
+    ShadowRay shadow = shadowRayFrom(point->position, arriving);
+    shadow.above = bias;
+    shadow.farthest =
+        isfinite(arriving->distance) ? norm(subVectors(arriving->position, point->position)) : INFINITY;
     return shadow;
 }
 

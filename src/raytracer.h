@@ -154,6 +154,16 @@ typedef struct CameraFrame {
 
 CameraFrame cameraFrame(const Camera *camera, int width, int height);
 
+/* base + u right + v up at a point of the picture in pixels: of a perspective camera, with base = forward,
+ * along the ray; of an orthographic one, with base = position, where the ray starts. */
+static inline Vector3D pictureVector(const CameraFrame *frame, Vector3D base, double x, double y, int width,
+                                     int height)
+{
+    double u = x / width - 0.5;
+    double v = (height - y) / height - 0.5;
+    return addVectors(addVectors(base, multVector(frame->right, u)), multVector(frame->up, v));
+}
+
 /* The ray through a point of the picture in pixels: (0, 0) is its top left corner, the middle of the
  * first pixel (0.5, 0.5). */
 Ray cameraRay(const CameraFrame *frame, double x, double y, int width, int height);
@@ -236,6 +246,9 @@ typedef struct ShadowRay {
 } ShadowRay;
 
 ShadowRay shadowRayTo(const Scene *scene, const SurfacePoint *point, const ArrivingLight *arriving);
+
+/* The same from a start that is off the surface, by the tracer's own rule. */
+ShadowRay shadowRayFrom(Vector3D start, const ArrivingLight *arriving);
 
 /* What is left of the light behind these objects of the scene, given by their numbers in rising order; NULL:
  * behind all of them. Black behind an opaque surface, times the transmission of each transparent one that it

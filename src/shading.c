@@ -34,9 +34,7 @@ Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, V
 
 Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v)
 {
-    Vector3D half = multVector(addVectors(v, l), 0.5);
-    double length = norm(half);
-    double cosine = length > 0 ? dot(half, n) / length : 0;
+    double cosine = blinnCosine(n, l, v);
     if (!(cosine > 0))
         return createColor(0, 0, 0);
     return scaleColor(light, power(cosine, (double)material->shininess));

@@ -48,6 +48,14 @@ Color3f diffuseReflection(const Material *material, Color3f light, Vector3D n, V
  * must have left out the lights behind the surface. */
 Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v);
 
+/* dot(N, H), H halfway between L and V; 0 where they are opposite. */
+static inline double blinnCosine(Vector3D n, Vector3D l, Vector3D v)
+{
+    Vector3D half = multVector(addVectors(v, l), 0.5);
+    double length = norm(half), cosine = dot(half, n) / length;
+    return length > 0 ? cosine : 0;
+}
+
 /* Blinn's highlight without its colour, Lc * max(0, dot(N, H))^shininess, H halfway between L and V (Blinn
  * 1977, "Models of light reflection for computer synthesized pictures", section 3). */
 Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v);

@@ -90,20 +90,24 @@ void sortHits(HitSink *sink)
 
 /* ---- Between world and object space ---- */
 
+Ray rayInObjectSpace(const Transform *transform, const Ray *ray, double *scale)
+{
+    const Matrix *inverse = &transform->objectFromWorld;
+    Vector3D direction = transformDirection(inverse, ray->direction);
+    double length = norm(direction);
+    *scale = 1 / length;
+    return createRay(transformPoint(inverse, ray->origin), multVector(direction, 1 / length));
+}
+
 void intersectObject(const Object *object, const Ray *ray, HitSink *sink)
 {
     sink->current = object;
+    sink->scale = 1;
     if (object->transform == NULL) {
-        sink->scale = 1;
         objectShape(object)->intersect(object, ray, sink);
         return;
     }
-    /* Take the ray to object space and give it unit length again; distances there are longer by that. */
-    const Matrix *inverse = &object->transform->objectFromWorld;
-    Vector3D direction = transformDirection(inverse, ray->direction);
-    double length = norm(direction);
-    Ray local = createRay(transformPoint(inverse, ray->origin), multVector(direction, 1 / length));
-    sink->scale = 1 / length;
+    Ray local = rayInObjectSpace(object->transform, ray, &sink->scale);
     objectShape(object)->intersect(object, &local, sink);
     sink->scale = 1;
 }

@@ -108,6 +108,10 @@ bool containsNothing(const Object *object, Vector3D point);
 
 /* The following are in world space. */
 
+/* The ray in an object's own space, of unit direction again: distances there are world distances divided by
+ * *scale. */
+Ray rayInObjectSpace(const Transform *transform, const Ray *ray, double *scale);
+
 /* Report every hit of the ray (of unit direction) at t > sink->above. */
 void intersectObject(const Object *object, const Ray *ray, HitSink *sink);
 

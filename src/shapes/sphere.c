@@ -19,27 +19,11 @@ Sphere createSphere(Vector3D center, double radius, Material material)
 
 static void sphereIntersect(const Object *object, const Ray *ray, HitSink *sink)
 {
-    const Sphere *sphere = &object->sphere;
-    Vector3D f = subVectors(ray->origin, sphere->center);
-    double b = -dot(f, ray->direction);
-    double squaredRadius = sphere->radius * sphere->radius;
-
-    /* Find how far the ray's nearest point is from the centre. */
-    Vector3D nearest = addVectors(f, multVector(ray->direction, b));
-    double discriminant = squaredRadius - dot(nearest, nearest);
-    if (!(discriminant >= 0))
+    double first, second;
+    if (!sphereDistances(object->sphere.center, object->sphere.radius, ray, &first, &second))
         return;
-
-    /* Solve for the two distances. */
-    double c = dot(f, f) - squaredRadius;
-    double q = b + copysign(sqrt(discriminant), b);
-    double other = q != 0 ? c / q : 0;
-    /* From a point on the sphere along it, c is nothing but rounding; then the difference is the better one.
-     */
-    if (fabs(other) > fabs(q))
-        other = b - copysign(sqrt(discriminant), b);
-    reportHit(sink, q, 0, 0, 0);
-    reportHit(sink, other, 0, 0, 0);
+    reportHit(sink, first, 0, 0, 0);
+    reportHit(sink, second, 0, 0, 0);
 }
 
 static Vector3D sphereNormal(const Object *object, const Hit *hit, Vector3D position)
