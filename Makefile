@@ -45,10 +45,22 @@ WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Wno-psabi \
 # -fno-omit-frame-pointer: whole stack traces in the reports.
 SANITIZERS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 
+# The paths of the fast engine: `plain` is for every processor of the architecture, `avx2` is chosen when the
+# program runs where the processor has it. -O3: the loops over lanes become vector code.
+## ARCHITECTURE=x86_64: what the compiler makes programs for, as uname -m says it
+ARCHITECTURE ?= $(shell uname -m)
+## PORTABLE=1: build the fast engine without anything that knows an instruction set
+PORTABLE ?=
+LANE_PATHS := plain $(if $(filter x86_64,$(ARCHITECTURE)),$(if $(PORTABLE),,avx2))
+LANE_FLAGS_plain :=
+LANE_FLAGS_avx2 := -mavx2 -mfma
+LANE_OPTIMIZE ?= -O3
+ENGINE_DEFINES := $(if $(filter avx2,$(LANE_PATHS)),-DECLAIRAGE_HAS_AVX2) $(if $(PORTABLE),-DECLAIRAGE_PORTABLE)
+
 # _POSIX_C_SOURCE: -std=c17 hides everything outside ISO C; POSIX threads, files and processes are needed.
 # -g: line numbers in a debugger and in sanitizer reports; costs no speed.
 ALL_CFLAGS = -std=c17 $(OPTIMIZE) -g $(ARITHMETIC) $(WARNINGS) $(SANITIZERS) \
-	-D_POSIX_C_SOURCE=200809L -DECLAIRAGE_VERSION='"$(VERSION)"' -Isrc -I. \
+	-D_POSIX_C_SOURCE=200809L -DECLAIRAGE_VERSION='"$(VERSION)"' $(ENGINE_DEFINES) -Isrc -I. \
 	$(PACKAGE_CFLAGS) -pthread $(CPPFLAGS) $(CFLAGS)
 COMPILE = $(REQUIRE_BUILD_TOOLS)$(CC) $(ALL_CFLAGS)
 LIBRARIES = $(PACKAGE_LIBS) -lm -pthread
@@ -70,11 +82,14 @@ INSTALLER = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' tools/install-dependencies.sh
 # ---------------------------------------------------------------------------------------------------------
 
 LIBRARY_SOURCES := $(filter-out src/main.c,$(wildcard src/*.c)) \
-	$(wildcard src/base/*.c src/image/*.c src/patterns/*.c src/scene/*.c src/shapes/*.c povray/*.c compare/*.c)
+	$(wildcard src/base/*.c src/engine/*.c src/image/*.c src/patterns/*.c src/scene/*.c src/shapes/*.c povray/*.c \
+	compare/*.c)
+# These are compiled once for each path, that is each instruction set the fast engine can choose from.
+LANE_SOURCES := $(wildcard src/engine/lanes/*.c)
 PROGRAM_SOURCES := src/main.c $(wildcard src/cli/*.c)
 # The headers a user of the library includes, and the ones they bring; the others are its own affair.
 PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/patterns/*.h src/shapes/*.h) src/image/image.h \
-	src/scene/load.h src/scene/diagnostics.h src/scene/source_text.h povray/export.h povray/run.h \
+	src/engine/engine.h src/scene/load.h src/scene/diagnostics.h src/scene/source_text.h povray/export.h povray/run.h \
 	compare/metrics.h compare/difference.h compare/report.h
 # Files in tests/unit that are not test programs are helpers, linked into each of them.
 UNIT_SOURCES := $(wildcard tests/unit/test_*.c)
@@ -82,7 +97,8 @@ UNIT_HELPERS := $(filter-out $(UNIT_SOURCES),$(wildcard tests/unit/*.c))
 PROPERTY_SOURCES := $(wildcard tests/property/*.c)
 
 objects = $(1:%.c=$(BUILD)/obj/%.o)
-LIBRARY_OBJECTS := $(call objects,$(LIBRARY_SOURCES))
+LANE_OBJECTS := $(foreach path,$(LANE_PATHS),$(LANE_SOURCES:%.c=$(BUILD)/obj/%.$(path).o))
+LIBRARY_OBJECTS := $(call objects,$(LIBRARY_SOURCES)) $(LANE_OBJECTS)
 PROGRAM_OBJECTS := $(call objects,$(PROGRAM_SOURCES))
 UNIT_OBJECTS := $(call objects,$(UNIT_HELPERS))
 PROPERTY_OBJECTS := $(call objects,$(PROPERTY_SOURCES))
@@ -107,6 +123,15 @@ $(BUILD)/obj/%.o: %.c $(BUILD)/flags
 	$(call say,CC,$<)
 	$(Q)mkdir -p $(@D)
 	$(Q)$(COMPILE) -MMD -MP -c -o $@ $<
+
+# One rule for each path: PATH.o of a file in src/engine/lanes.
+define lane-rule
+$$(BUILD)/obj/src/engine/lanes/%.$(1).o: src/engine/lanes/%.c $$(BUILD)/flags
+	$$(call say,CC,$$< ($(1)))
+	$$(Q)mkdir -p $$(@D)
+	$$(Q)$$(COMPILE) $$(LANE_OPTIMIZE) $$(LANE_FLAGS_$(1)) -DLANE_PATH=$(1) -MMD -MP -c -o $$@ $$<
+endef
+$(foreach path,$(LANE_PATHS),$(eval $(call lane-rule,$(path))))
 
 # The report's page is assembled into this object, which the compiler's list of dependencies does not say.
 $(BUILD)/obj/compare/report_template.o: $(wildcard compare/report*.html compare/report*.css compare/report*.js)

@@ -42,7 +42,7 @@ _eclairage()
       return
       ;;
     --engine)
-      mapfile -t COMPREPLY < <(compgen -W 'reference' -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W 'fast reference' -- "$word")
       return
       ;;
     --encoding)

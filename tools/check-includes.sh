@@ -24,9 +24,10 @@ lights:     raytracer
 scene_objects: raytracer
 image:      colors
 scene:      raytracer image
+engine:     raytracer
 povray:     raytracer image
 compare:    image
-cli:        scene povray compare
+cli:        scene engine povray compare
 main:       cli
 '
 

@@ -61,6 +61,12 @@ enum {
     NOT_GIVEN = -1
 };
 
+/* What draws. */
+typedef enum Engine {
+    ENGINE_FAST,
+    ENGINE_REFERENCE
+} Engine;
+
 /* The command line, checked. Strings point into argv. */
 struct Arguments {
     int argc; /* as main got them */
@@ -75,7 +81,7 @@ struct Arguments {
     int width, height;    /* 0: not given */
     int samples, threads; /* 0: not given */
     int model;            /* a ShadingModel less MODEL_SIMPLE, or NOT_GIVEN */
-    int engine;           /* NOT_GIVEN, or 0: reference */
+    int engine;           /* an Engine, or NOT_GIVEN */
     int encoding;         /* an Encoding or NOT_GIVEN */
     int depthChoice;      /* NOT_GIVEN, 0: 8 bits, 1: 16 bits */
     Tolerance tolerance;  /* NAN where not given */

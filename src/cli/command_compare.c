@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/threads.h"
 #include "cli/command.h"
+#include "cli/drawing.h"
 #include "cli/scene_input.h"
 #include "cli/terminal.h"
 #include "compare/difference.h"
@@ -202,17 +203,17 @@ static Status writePicture(const Run *run, const Text *name, const Image *image)
     return status;
 }
 
-static Status drawScene(Run *run, Job *job, const Scene *scene, Image *ours)
+static Status drawOurs(Run *run, Job *job, const Scene *scene, Image *ours)
 {
     Framebuffer *framebuffer = createFramebuffer(scene->image.width, scene->image.height);
     if (framebuffer == NULL)
         return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
                            scene->image.height);
     pthread_mutex_lock(&run->turn);
-    double start = secondsNow();
     RenderOptions options = {.threads = run->threads};
-    Status status = renderReference(scene, framebuffer, &options, NULL);
-    job->result.renderSeconds = secondsSince(start);
+    DrawingSeconds seconds;
+    Status status = drawScene(scene, chosenEngine(run->arguments), framebuffer, &options, NULL, &seconds);
+    job->result.renderSeconds = seconds.compile + seconds.trace;
     pthread_mutex_unlock(&run->turn);
     if (statusIsOk(&status)) {
         warnOfNonFinitePixels(framebuffer, job->path, &job->messages);
@@ -271,7 +272,7 @@ static Status compareScene(Run *run, Job *job, Scene *scene)
     if (statusIsOk(&status))
         status = writeTextFile(run, textString(&job->pov), &pov);
     if (statusIsOk(&status))
-        status = drawScene(run, job, scene, &pictures.ours);
+        status = drawOurs(run, job, scene, &pictures.ours);
     if (statusIsOk(&status))
         status = drawWithPovray(run, job, scene, &pov, &pictures.povray);
     textFree(&pov);

@@ -2,6 +2,7 @@
 #include "base/json.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/drawing.h"
 #include "cli/scene_input.h"
 #include "cli/terminal.h"
 #include "image/image.h"
@@ -22,7 +23,7 @@ static int64_t peakMemory(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (int64_t)usage.ru_maxrss * 1024 : 0;
 }
 
-static int printJson(const char *path, const Scene *scene, int threads, const Phases *phases,
+static int printJson(const char *path, const Scene *scene, Engine engine, int threads, const Phases *phases,
                      const RayCounts *rays)
 {
     Text text = {0};
@@ -31,7 +32,7 @@ static int printJson(const char *path, const Scene *scene, int threads, const Ph
     jsonKeyString(&json, "scene", path);
     jsonKeyInteger(&json, "width", scene->image.width);
     jsonKeyInteger(&json, "height", scene->image.height);
-    jsonKeyString(&json, "engine", "reference");
+    jsonKeyString(&json, "engine", engine == ENGINE_FAST ? "fast" : "reference");
     jsonKeyInteger(&json, "threads", threads);
     jsonKey(&json, "seconds");
     jsonInlineObject(&json);
@@ -54,27 +55,24 @@ static int printJson(const char *path, const Scene *scene, int threads, const Ph
 }
 
 /* Draw, store and write; the phases' times and the rays are measured. */
-static Status renderToFile(const Scene *scene, const char *path, int threads, const char *output,
-                           Phases *phases, RayCounts *rays)
+static Status renderToFile(const Scene *scene, const char *path, Engine engine, int threads,
+                           const char *output, Phases *phases, RayCounts *rays)
 {
-    /* Make the canvas ready. */
-    double start = secondsNow();
     Framebuffer *framebuffer = createFramebuffer(scene->image.width, scene->image.height);
     if (framebuffer == NULL)
         return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
                            scene->image.height);
-    phases->compile = secondsSince(start);
 
-    /* Trace the rays. */
-    start = secondsNow();
     beginProgress("rendering");
     RenderOptions options = {.threads = threads, .progress = showProgress};
-    Status status = renderReference(scene, framebuffer, &options, rays);
+    DrawingSeconds seconds;
+    Status status = drawScene(scene, engine, framebuffer, &options, rays, &seconds);
     endProgress();
-    phases->trace = secondsSince(start);
+    phases->compile = seconds.compile;
+    phases->trace = seconds.trace;
 
     /* Write the picture. */
-    start = secondsNow();
+    double start = secondsNow();
     Image image;
     if (statusIsOk(&status)) {
         Text messages = {0};
@@ -115,7 +113,7 @@ int runRender(const Arguments *arguments)
     const char *output = arguments->output != NULL ? arguments->output : textString(&defaultName);
     status = defaultName.failed ? statusOutOfMemory() : probeOutput(output);
     if (statusIsOk(&status))
-        status = renderToFile(&scene, path, threads, output, &phases, &rays);
+        status = renderToFile(&scene, path, chosenEngine(arguments), threads, output, &phases, &rays);
     phases.total = secondsSince(start);
 
     int code = (int)status.code;
@@ -126,7 +124,7 @@ int runRender(const Arguments *arguments)
             printNote("wrote %s (%d x %d, %.2f s)", output, scene.image.width, scene.image.height,
                       phases.total);
         if (arguments->json)
-            code = printJson(path, &scene, threads, &phases, &rays);
+            code = printJson(path, &scene, chosenEngine(arguments), threads, &phases, &rays);
     }
     textFree(&defaultName);
     freeScene(&scene);

@@ -32,8 +32,8 @@ const Option OPTIONS[] = {
      .help = "draw each pixel as the mean of N x N samples"},
     {"threads", 0, DRAWING, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 256, FIELD(threads),
      .help = "draw on N threads (one for each processor); the picture is the same"},
-    {"engine", 0, DRAWING, VALUE_CHOICE, .choices = {"reference"}, .later = "fast", FIELD(engine),
-     .help = "draw with this engine"},
+    {"engine", 0, DRAWING, VALUE_CHOICE, .choices = {"fast", "reference"}, FIELD(engine),
+     .help = "how to draw; the picture is the same (default fast)"},
     {"encoding", 0, SIZED, VALUE_CHOICE, .choices = {"srgb", "linear"}, FIELD(encoding),
      .help = "store samples by the sRGB curve or as they are"},
     {"bit-depth", 0, SIZED, VALUE_CHOICE, .choices = {"8", "16"}, FIELD(depthChoice),
@@ -85,10 +85,7 @@ static Status readChoice(const Option *option, const char *given, const char *va
     Text choices = {0};
     appendChoices(&choices, option);
     Status status;
-    if (option->later != NULL && strcmp(value, option->later) == 0)
-        status = statusError(STATUS_USAGE, "%s %s does not exist yet in this version; use %s", given, value,
-                             textString(&choices));
-    else if (suggestion.best != NULL && !(*value >= '0' && *value <= '9'))
+    if (suggestion.best != NULL && !(*value >= '0' && *value <= '9'))
         status = statusError(STATUS_USAGE, "%s must be %s, not '%s'; did you mean '%s'?", given,
                              textString(&choices), value, suggestion.best);
     else

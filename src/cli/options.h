@@ -33,7 +33,6 @@ typedef struct Option {
     const char *placeholder; /* the value in the help; NULL with choices, which stand there themselves */
     double minimum, maximum;
     const char *choices[MAX_CHOICES]; /* up to the first NULL */
-    const char *later;                /* a choice that is known but does not exist yet, or NULL */
     size_t offset;                    /* of the field in Arguments */
     const char *help;                 /* one sentence without its full stop */
 } Option;

@@ -78,8 +78,8 @@ END
 @test "choices: all of them are in the message" {
     refused "--model must be simple, lambert, phong or blinn_phong, not 'phnog'; did you mean 'phong'?" render \
         render s.yaml --model phnog
-    refused "--engine fast does not exist yet in this version; use reference" render render s.yaml --engine fast
-    refused "--engine must be reference, not 'gpu'" compare compare s.yaml --engine gpu
+    refused "--engine must be fast or reference, not 'gpu'" compare compare s.yaml --engine gpu
+    refused "--engine must be fast or reference, not 'quick'" render render s.yaml --engine quick
     refused "--encoding must be srgb or linear, not 'rgb'; did you mean 'srgb'?" render \
         render s.yaml --encoding rgb
     refused "--bit-depth must be 8 or 16, not '12'" render render s.yaml --bit-depth 12

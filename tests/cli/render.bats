@@ -51,12 +51,35 @@ load helpers
     done
 }
 
+@test "the same picture and the same counts from both engines and every path" {
+    makeScene s.yaml
+    try 0 render -q s.yaml -o fast.png --engine fast --json
+    json '.engine == "fast"'
+    jq -c .rays "$out" >fast.rays
+    try 0 render -q s.yaml -o reference.png --engine reference --json
+    json '.engine == "reference" and .seconds.compile == 0'
+    jq -c .rays "$out" >reference.rays
+    cmp fast.png reference.png
+    cmp fast.rays reference.rays
+    for path in avx2 sse2 neon portable; do
+        run env ECLAIRAGE_PATH=$path "$ECLAIRAGE" render -q s.yaml -o path.png
+        [ "$status" -eq 2 ] || cmp fast.png path.png
+    done
+}
+
+@test "an instruction set that is not there is named, with those that are" {
+    makeScene s.yaml
+    ECLAIRAGE_PATH=mmx try 2 render -q s.yaml -o path.png
+    hasText "$err" "ECLAIRAGE_PATH is 'mmx', which is not here; there "
+    not test -e path.png
+}
+
 @test "JSON has the contract's fields, and nothing else is on standard output" {
     makeScene s.yaml
     try 0 render s.yaml --json --threads 2 --width 20
     json '[keys_unsorted[]] == ["scene", "width", "height", "engine", "threads", "seconds", "rays",
         "peak_memory_bytes"]'
-    json '.scene == "s.yaml" and .width == 20 and .height == 15 and .engine == "reference" and .threads == 2'
+    json '.scene == "s.yaml" and .width == 20 and .height == 15 and .engine == "fast" and .threads == 2'
     json '[.seconds | keys_unsorted[]] == ["load", "compile", "trace", "write", "total"]'
     json '.seconds | [.[] | type == "number" and . >= 0] | all'
     json '.seconds | .total >= .load + .compile + .trace + .write - 1e-5 and .total < 10'

@@ -1,0 +1,32 @@
+/* drawing.c - see drawing.h. */
+#include "cli/drawing.h"
+
+#include "cli/terminal.h"
+#include "engine/engine.h"
+
+Engine chosenEngine(const Arguments *arguments)
+{
+    return arguments->engine == NOT_GIVEN ? ENGINE_FAST : (Engine)arguments->engine;
+}
+
+Status drawScene(const Scene *scene, Engine engine, Framebuffer *framebuffer, const RenderOptions *options,
+                 RayCounts *counts, DrawingSeconds *seconds)
+{
+    *seconds = (DrawingSeconds){0};
+    double start = secondsNow();
+    if (engine == ENGINE_REFERENCE) {
+        Status status = renderReference(scene, framebuffer, options, counts);
+        seconds->trace = secondsSince(start);
+        return status;
+    }
+    CompiledScene *compiled;
+    Status status = compileScene(scene, options->threads, &compiled);
+    seconds->compile = secondsSince(start);
+    if (!statusIsOk(&status))
+        return status;
+    start = secondsNow();
+    status = renderCompiled(compiled, framebuffer, options, counts);
+    seconds->trace = secondsSince(start);
+    freeCompiledScene(compiled);
+    return status;
+}

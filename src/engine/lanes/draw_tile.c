@@ -1,0 +1,46 @@
+/* draw_tile.c - the picture's pixels in one tile of 8 x 8; see path.h. */
+#include "engine/lanes/tile_lanes.h"
+
+void PATH(drawTile)(const TileJob *job, int left, int top, uint32_t *lastBlocks, RayCounts *counts)
+{
+    Framebuffer *framebuffer = job->framebuffer;
+    int n = job->compiled->scene->render.samples;
+    TileLanes tile;
+    tile.job = job;
+    tile.lastBlocks = lastBlocks;
+    tile.counts = counts;
+    tile.inPicture = 0;
+    EACH_LANE(k)
+    if (left + laneX(k) < framebuffer->width && top + laneY(k) < framebuffer->height)
+        tile.inPicture |= 1ull << k;
+
+    /* The mean of n x n rays, evenly spread; of one, through the middle. As renderPixel of the course's
+     * tracer. */
+    VectorLanes sums;
+    EACH_LANE(k)
+    setLaneVector(&sums, k, createVector(0, 0, 0));
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            PATH(aimRays)(&tile, left, top, (i + 0.5) / n, (j + 0.5) / n);
+            PATH(meetSurfaces)(&tile);
+            PATH(shadeSurfaces)(&tile);
+            counts->primary += (uint64_t)__builtin_popcountll(tile.inPicture);
+            if (n > 1)
+                EACH_LANE(k)
+                {
+                    sums.x[k] += (double)tile.colors.r[k];
+                    sums.y[k] += (double)tile.colors.g[k];
+                    sums.z[k] += (double)tile.colors.b[k];
+                }
+        }
+    double count = (double)n * n;
+    EACH_SET(k, tile.inPicture)
+    {
+        Color3f color = laneColor(&tile.colors, k);
+        if (n > 1)
+            color = createColor((float)(sums.x[k] / count), (float)(sums.y[k] / count),
+                                (float)(sums.z[k] / count));
+        size_t row = (size_t)(top + laneY(k)) * (size_t)framebuffer->width;
+        framebuffer->pixels[row + (size_t)(left + laneX(k))] = color;
+    }
+}
