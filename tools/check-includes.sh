@@ -33,6 +33,7 @@ main:       cli
 libraries='
 yaml.h:     scene
 png.h:      image
+zlib.h:     image
 '
 
 # Code outside these folders (tests, bench, notes) may include anything.
