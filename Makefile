@@ -68,7 +68,7 @@ LIBRARIES = $(PACKAGE_LIBS) -lm -pthread
 # Each of these variables computes itself when it is first used and then keeps its value: one run of
 # pkg-config for a whole build, none for `make help`.
 PKG_CONFIG ?= pkg-config
-PACKAGES := yaml-0.1 libpng
+PACKAGES := yaml-0.1 libpng zlib
 PACKAGE_CFLAGS = $(eval PACKAGE_CFLAGS := $$(shell $(PKG_CONFIG) --cflags $(PACKAGES)))$(PACKAGE_CFLAGS)
 PACKAGE_LIBS = $(eval PACKAGE_LIBS := $$(shell $(PKG_CONFIG) --libs $(PACKAGES)))$(PACKAGE_LIBS)
 # These expand to nothing, or end make with one line that names what is missing and how to install it.

@@ -103,11 +103,11 @@ int main(int argc, char **argv)
     int all = availableProcessors();
     char path[4096];
     snprintf(path, sizeof path, "%s/a.png", argv[1]);
-    stopOnError(writePng(path, &a));
+    stopOnError(writePng(path, &a, 1));
     printf("%-32s %10s %10s\n", "1920x1080, 8 bit, milliseconds", "1 thread", "all");
     for (int i = 0; i < 2; i++) {
         snprintf(path, sizeof path, "%s/%s.png", argv[1], others[i].name);
-        stopOnError(writePng(path, &others[i].image));
+        stopOnError(writePng(path, &others[i].image, 1));
         for (int part = 0; part < PARTS; part++) {
             double one = timePart((Part)part, &a, &others[i].image, 1);
             double many = timePart((Part)part, &a, &others[i].image, all);

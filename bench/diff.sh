@@ -8,7 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 
 # shellcheck disable=SC2046 # the libraries are several words
 ${CC:-cc} -std=c17 -O2 -D_POSIX_C_SOURCE=200809L -Isrc -I. -pthread -o "$folder/diff" bench/diff.c \
-    "$(dirname "$program")/libeclairage.a" $(pkg-config --libs libpng yaml-0.1) -lm
+    "$(dirname "$program")/libeclairage.a" $(pkg-config --libs libpng yaml-0.1 zlib) -lm
 "$folder/diff" "$folder"
 
 # The least of five runs of the whole process; different pictures make diff exit with 1.

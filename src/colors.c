@@ -1,6 +1,9 @@
 /* colors.c - light as three numbers, and the picture made of them; see colors.h. */
 #include "colors.h"
 
+#include "base/cancel.h"
+#include "base/large_memory.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -21,7 +24,7 @@ Framebuffer *createFramebuffer(int width, int height)
     if (width < 1 || height < 1 || (size_t)width > SIZE_MAX / sizeof(Color3f) / (size_t)height)
         return NULL;
     Framebuffer *framebuffer = malloc(sizeof *framebuffer);
-    Color3f *pixels = calloc((size_t)width * (size_t)height, sizeof *pixels);
+    Color3f *pixels = allocateZeroed((size_t)width * (size_t)height, sizeof *pixels);
     if (framebuffer == NULL || pixels == NULL) {
         free(framebuffer);
         free(pixels);
@@ -52,11 +55,12 @@ void PutPixel(Framebuffer *framebuffer, int x, int y, ColorRGB color)
 size_t countNonFinitePixels(const Framebuffer *framebuffer)
 {
     size_t count = 0;
-    size_t pixels = (size_t)framebuffer->width * (size_t)framebuffer->height;
-    for (size_t i = 0; i < pixels; i++) {
-        Color3f c = framebuffer->pixels[i];
-        if (!isfinite(c.r) || !isfinite(c.g) || !isfinite(c.b))
-            count++;
+    const Color3f *pixel = framebuffer->pixels;
+    for (int y = 0; y < framebuffer->height && !cancelRequested(); y++) {
+        for (int x = 0; x < framebuffer->width; x++, pixel++) {
+            /* A finite number times 0 is 0; any other is NaN, and so is a sum with it. */
+            count += pixel->r * 0 + pixel->g * 0 + pixel->b * 0 != 0;
+        }
     }
     return count;
 }
@@ -77,5 +81,6 @@ unsigned quantizeSample(float linear, int bits, Encoding encoding)
     if (encoding == ENCODING_SRGB)
         value = clampUnit(linearToSrgb(value));
     float largest = bits == 16 ? 65535.0f : 255.0f;
-    return (unsigned)floorf(value * largest + 0.5f);
+    /* Not negative, so the conversion rounds down. */
+    return (unsigned)(value * largest + 0.5f);
 }

@@ -81,7 +81,8 @@ void PutPixel(Framebuffer *framebuffer, int x, int y, ColorRGB color);
 /* The same with a linear colour that is not clamped: what the tracers of this library store. */
 void putLinearPixel(Framebuffer *framebuffer, int x, int y, Color3f color);
 
-/* The pixels that have a channel that is not finite, which a PNG cannot hold. */
+/* The pixels that have a channel that is not finite, which a PNG cannot hold; when cancelled, those found
+ * until then. */
 size_t countNonFinitePixels(const Framebuffer *framebuffer);
 
 /* The sRGB curve and its inverse (IEC 61966-2-1), for a value in 0..1. */

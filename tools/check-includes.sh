@@ -35,6 +35,7 @@ main:       cli
 libraries='
 yaml.h:     scene
 png.h:      image
+zlib.h:     image
 '
 
 # Code outside these folders (tests, bench, notes) may include anything.

@@ -32,6 +32,7 @@ need_build() {
     require pkg-config has "$pkgConfig"
     require libyaml-dev "$pkgConfig" --exists yaml-0.1
     require libpng-dev "$pkgConfig" --exists libpng
+    require zlib1g-dev "$pkgConfig" --exists zlib
 }
 need_demo() {
     require povray has povray

@@ -198,7 +198,7 @@ static Status writeTextFile(const Run *run, const char *name, const Text *text)
 static Status writePicture(const Run *run, const Text *name, const Image *image)
 {
     Text path = pathInFolder(run, textString(name));
-    Status status = path.failed ? statusOutOfMemory() : writePng(path.data, image);
+    Status status = path.failed ? statusOutOfMemory() : writePng(path.data, image, run->threads);
     textFree(&path);
     return status;
 }
@@ -217,7 +217,8 @@ static Status drawOurs(Run *run, Job *job, const Scene *scene, Image *ours)
     pthread_mutex_unlock(&run->turn);
     if (statusIsOk(&status)) {
         warnOfNonFinitePixels(framebuffer, job->path, &job->messages);
-        status = imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding, ours);
+        status = imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding, run->threads,
+                                      ours);
     }
     freeFramebuffer(framebuffer);
     return status;

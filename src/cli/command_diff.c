@@ -36,7 +36,7 @@ static int writeDifference(const Image *a, const Image *b, const char *output)
     Image difference;
     Status status = differencePicture(a, b, &difference);
     if (statusIsOk(&status)) {
-        status = writePng(output, &difference);
+        status = writePng(output, &difference, availableProcessors());
         freeImage(&difference);
     }
     if (!statusIsOk(&status))

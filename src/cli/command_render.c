@@ -78,11 +78,12 @@ static Status renderToFile(const Scene *scene, const char *path, Engine engine, 
         Text messages = {0};
         warnOfNonFinitePixels(framebuffer, path, &messages);
         printMessages(&messages);
-        status = imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding, &image);
+        status =
+            imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding, threads, &image);
     }
     freeFramebuffer(framebuffer);
     if (statusIsOk(&status)) {
-        status = writePng(output, &image);
+        status = writePng(output, &image, threads);
         freeImage(&image);
     }
     phases->write = secondsSince(start);

@@ -27,8 +27,11 @@ typedef struct Image {
 Status createImage(int width, int height, int bitDepth, Encoding encoding, Image *image);
 void freeImage(Image *image);
 
-/* The framebuffer as stored: each sample by quantizeSample. */
-Status imageFromFramebuffer(const Framebuffer *framebuffer, int bitDepth, Encoding encoding, Image *image);
+/* The framebuffer as stored: each sample is that of quantizeSample. Works on up to threads threads, which
+ * change nothing but the time. STATUS_IO when memory runs out, STATUS_INTERRUPTED when cancelled; on
+ * failure image is untouched. */
+Status imageFromFramebuffer(const Framebuffer *framebuffer, int bitDepth, Encoding encoding, int threads,
+                            Image *image);
 
 /* The largest sample value, 255 or 65535. */
 static inline unsigned imageMaxSample(const Image *image)
@@ -37,12 +40,13 @@ static inline unsigned imageMaxSample(const Image *image)
 }
 
 /* Write a PNG; "-" is standard output. With sRGB an sRGB chunk (and the gAMA and cHRM that go with it),
- * linear a gAMA chunk of 1.0. STATUS_IO names the file and the reason, and leaves the old file as it
- * was; STATUS_INTERRUPTED when cancelled. */
-Status writePng(const char *path, const Image *image);
+ * linear a gAMA chunk of 1.0. Works on up to threads threads; the bytes are the same for any number.
+ * STATUS_IO names the file and the reason, and leaves the old file as it was; STATUS_INTERRUPTED when
+ * cancelled. */
+Status writePng(const char *path, const Image *image, int threads);
 
 /* The same bytes in memory; *data is freed by the caller. */
-Status encodePng(const Image *image, unsigned char **data, size_t *length);
+Status encodePng(const Image *image, int threads, unsigned char **data, size_t *length);
 
 /* Read a PNG of any colour type, depth and interlacing; grey and palette are expanded to RGB, depths
  * below 8 to 8, alpha is dropped (hadAlpha). A gAMA chunk within 1 % of 1.0 and no sRGB or iCCP chunk
@@ -50,7 +54,7 @@ Status encodePng(const Image *image, unsigned char **data, size_t *length);
  * name and the reason for a missing, empty, truncated or corrupt file; on failure image is untouched. */
 Status readPng(const char *path, Image *image);
 
-/* For a program of one's own: clamp, encode as 8-bit sRGB and write. */
+/* For a program of one's own: clamp, encode as 8-bit sRGB and write, on all processors. */
 Status savePicture(const Framebuffer *framebuffer, const char *path);
 
 #endif

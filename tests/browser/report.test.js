@@ -108,7 +108,7 @@ function screenValue(value) {
 
 function makeFixture(folder) {
   const build = path.resolve(root, process.env.BUILD || 'build');
-  const flags = spawnSync('pkg-config', ['--cflags', '--libs', 'libpng', 'yaml-0.1'], { encoding: 'utf8' }).stdout.trim().split(/\s+/);
+  const flags = spawnSync('pkg-config', ['--cflags', '--libs', 'libpng', 'yaml-0.1', 'zlib'], { encoding: 'utf8' }).stdout.trim().split(/\s+/);
   const sanitize = process.env.SANITIZE ? [`-fsanitize=${process.env.SANITIZE}`] : [];
   const program = path.join(folder, 'report_fixture');
   const compiler = (process.env.CC || 'cc').split(/\s+/);

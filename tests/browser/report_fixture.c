@@ -118,7 +118,7 @@ static Status writeImageIn(const char *folder, const char *name, const Image *im
 {
     Text path = {0};
     textAppendFormat(&path, "%s/%s", folder, name);
-    Status status = writePng(textString(&path), image);
+    Status status = writePng(textString(&path), image, 1);
     textFree(&path);
     return status;
 }

@@ -19,6 +19,6 @@ done
 "$clang" -std=c17 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all \
     -D_POSIX_C_SOURCE=200809L -Isrc -I. -o "$build/load" \
     tests/fuzz/load.c $(ls src/*.c | grep -v 'main[.]c$') src/scene/*.c src/base/*.c src/shapes/*.c \
-    src/patterns/*.c src/image/*.c $(pkg-config --cflags --libs yaml-0.1 libpng) -lm -pthread
+    src/patterns/*.c src/image/*.c $(pkg-config --cflags --libs yaml-0.1 libpng zlib) -lm -pthread
 "$build/load" -max_total_time="$seconds" -max_len=4096 -timeout=5 -dict=tests/fuzz/load.dict \
     -artifact_prefix="$build/" -print_final_stats=1 "$build/found" "$build/seeds"

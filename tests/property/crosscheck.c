@@ -81,7 +81,7 @@ static Status drawOurs(const Scene *scene, Image *image)
     RenderOptions options = {.threads = 1};
     Status status = renderReference(scene, framebuffer, &options, NULL);
     if (statusIsOk(&status))
-        status = imageFromFramebuffer(framebuffer, 16, ENCODING_LINEAR, image);
+        status = imageFromFramebuffer(framebuffer, 16, ENCODING_LINEAR, 1, image);
     freeFramebuffer(framebuffer);
     return status;
 }

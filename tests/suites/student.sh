@@ -5,8 +5,8 @@ set -euo pipefail
 build=${BUILD:-build}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-flags="-std=c17 -Wall -Wextra -Isrc $(pkg-config --cflags libpng)"
-libraries="$build/libeclairage.a $(pkg-config --libs libpng yaml-0.1) -lm -pthread"
+flags="-std=c17 -Wall -Wextra -Isrc $(pkg-config --cflags libpng zlib)"
+libraries="$build/libeclairage.a $(pkg-config --libs libpng yaml-0.1 zlib) -lm -pthread"
 for program in main check; do
     # shellcheck disable=SC2086
     ${CC:-cc} $flags -o "$folder/$program" "tests/student/$program.c" $libraries

@@ -170,7 +170,7 @@ static void returnsWhatWasWritten(void **state)
             for (int linear = 0; linear <= 1; linear++) {
                 Image image =
                     randomImage(sizes[i][0], sizes[i][1], bitDepth, linear ? ENCODING_LINEAR : ENCODING_SRGB);
-                assertOk(writePng("a.png", &image));
+                assertOk(writePng("a.png", &image, 2));
                 Image back;
                 assertOk(readPng("a.png", &back));
                 assertSameImage(&image, &back);
@@ -178,7 +178,7 @@ static void returnsWhatWasWritten(void **state)
                 /* In memory and in the file, now and again: the same bytes. */
                 unsigned char *data;
                 size_t length;
-                assertOk(encodePng(&image, &data, &length));
+                assertOk(encodePng(&image, 2, &data, &length));
                 char *file;
                 size_t fileLength;
                 assertOk(readWholeFile("a.png", 10000000, &file, &fileLength));
@@ -198,7 +198,7 @@ static void assertChunks(const Image *image, const Bytes *expected)
 {
     unsigned char *data;
     size_t length;
-    assertOk(encodePng(image, &data, &length));
+    assertOk(encodePng(image, 2, &data, &length));
     assert_true(length > expected->length);
     /* First the signature and IHDR, then the others in an order that libpng chooses. */
     size_t header = 8 + 12 + 13;
@@ -269,9 +269,9 @@ static void keepsTheOldPicture(void **state)
     Image image = randomImage(5, 5, 8, ENCODING_SRGB);
     assertOk(makeFolders("d"));
     assertOk(writeWholeFile("file", "kept", 4));
-    assertFails(writePng("d", &image), "'d'", "folder");
-    assertFails(writePng("no/x.png", &image), "'no/x.png'", "does not exist");
-    assertFails(writePng("file/x.png", &image), "'file/x.png'", "not a folder");
+    assertFails(writePng("d", &image, 2), "'d'", "folder");
+    assertFails(writePng("no/x.png", &image, 2), "'no/x.png'", "does not exist");
+    assertFails(writePng("file/x.png", &image, 2), "'file/x.png'", "not a folder");
     char *data;
     size_t length;
     assertOk(readWholeFile("file", 10, &data, &length));
@@ -286,7 +286,7 @@ static void keepsTheOldPicture(void **state)
     bool direct = output.temporaryPath == NULL;
     abandonOutput(&output);
     assert_true(direct);
-    assertFails(writePng("/dev/full", &image), "'/dev/full'", "no space");
+    assertFails(writePng("/dev/full", &image, 2), "'/dev/full'", "no space");
     freeImage(&image);
 }
 
@@ -300,11 +300,11 @@ static void roundsTheFramebuffer(void **state)
     putLinearPixel(framebuffer, 2, 0, createColor(INFINITY, -INFINITY, 0.25f));
     putLinearPixel(framebuffer, 0, 1, createColor(0.22f, 0.001f, 0.9f));
     Image image;
-    assertOk(imageFromFramebuffer(framebuffer, 8, ENCODING_LINEAR, &image));
+    assertOk(imageFromFramebuffer(framebuffer, 8, ENCODING_LINEAR, 2, &image));
     static const uint16_t linear8[9] = {0, 128, 255, 0, 255, 0, 255, 0, 64};
     assert_memory_equal(image.samples, linear8, sizeof linear8);
     freeImage(&image);
-    assertOk(imageFromFramebuffer(framebuffer, 16, ENCODING_LINEAR, &image));
+    assertOk(imageFromFramebuffer(framebuffer, 16, ENCODING_LINEAR, 2, &image));
     static const uint16_t linear16[9] = {0, 32768, 65535, 0, 65535, 0, 65535, 0, 16384};
     assert_memory_equal(image.samples, linear16, sizeof linear16);
     assert_int_equal(image.bitDepth, 16);
@@ -553,7 +553,7 @@ static void refusesWhatIsNoPicture(void **state)
 
     /* The largest side there may be is read. */
     Image wide = randomImage(65535, 1, 8, ENCODING_SRGB);
-    assertOk(writePng("wide.png", &wide));
+    assertOk(writePng("wide.png", &wide, 2));
     Image back;
     assertOk(readPng("wide.png", &back));
     assertSameImage(&wide, &back);
@@ -573,7 +573,7 @@ static unsigned char *fileToBreak(int number, size_t *length)
     if (number == 0) {
         Image image = randomImage(7, 5, 16, ENCODING_LINEAR);
         unsigned char *data;
-        assertOk(encodePng(&image, &data, length));
+        assertOk(encodePng(&image, 2, &data, length));
         freeImage(&image);
         return data;
     }
@@ -657,15 +657,15 @@ static void survivesCorruption(void **state)
 static bool cancelAll(void)
 {
     Image image = {.width = 1, .height = 1, .bitDepth = 8, .samples = (uint16_t[3]){1, 2, 3}};
-    Status written = writePng("a.png", &image);
+    Status written = writePng("a.png", &image, 2);
     requestCancel();
-    Status overwritten = writePng("b.png", &image);
+    Status overwritten = writePng("b.png", &image, 2);
     unsigned char *data;
     size_t length;
-    Status encoded = encodePng(&image, &data, &length);
+    Status encoded = encodePng(&image, 2, &data, &length);
     Status read = readPng("a.png", &image);
     Framebuffer *framebuffer = createFramebuffer(2, 2);
-    Status made = imageFromFramebuffer(framebuffer, 8, ENCODING_SRGB, &image);
+    Status made = imageFromFramebuffer(framebuffer, 8, ENCODING_SRGB, 2, &image);
     freeFramebuffer(framebuffer);
     return statusIsOk(&written) && overwritten.code == STATUS_INTERRUPTED &&
            encoded.code == STATUS_INTERRUPTED && read.code == STATUS_INTERRUPTED &&

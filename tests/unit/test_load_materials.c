@@ -158,7 +158,7 @@ static void writeTexture(const Folder *folder, const char *name, int bitDepth, E
     const unsigned samples[6] = {0, most / 2, most, most / 4, most / 4, most / 4};
     for (int i = 0; i < 6; i++)
         image.samples[i] = (uint16_t)samples[i];
-    status = writePng(path, &image);
+    status = writePng(path, &image, 1);
     assert_true(statusIsOk(&status));
     freeImage(&image);
 }

@@ -353,7 +353,7 @@ static void failureAndTimeoutAreTold(void **state)
     Image other;
     status = createImage(small.width + 1, small.height, small.bitDepth, small.encoding, &other);
     assert_true(statusIsOk(&status));
-    status = writePng(otherPath, &other);
+    status = writePng(otherPath, &other, 1);
     assert_true(statusIsOk(&status));
     freeImage(&other);
     status = runPovray("", &small, &image);
@@ -449,7 +449,7 @@ static void theRealOneDrawsOurPicture(void **state)
     Framebuffer *framebuffer = createFramebuffer(64, 48);
     RenderOptions options = {.threads = 1};
     renderReference(&scene, framebuffer, &options, NULL);
-    status = imageFromFramebuffer(framebuffer, 16, ENCODING_LINEAR, &ours);
+    status = imageFromFramebuffer(framebuffer, 16, ENCODING_LINEAR, 1, &ours);
     assert_int_equal(status.code, STATUS_OK);
     assert_memory_equal(ours.samples, theirs.samples, 64 * 48 * 3 * sizeof(uint16_t));
     unsigned brightest = 0;

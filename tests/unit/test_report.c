@@ -454,7 +454,7 @@ static int setUp(void **state)
         assert_true(statusIsOk(&status));
         image.samples[0] = (uint16_t)(1000 + i);
         char *path = joinPath(folder->path, names[i]);
-        status = writePng(path, &image);
+        status = writePng(path, &image, 1);
         assert_true(statusIsOk(&status));
         free(path);
         freeImage(&image);
