@@ -9,7 +9,7 @@
 # WIDTH=1024       of the pictures, a multiple of 16
 # ENGINE=fast      ours
 # RESULTS=FILE     write the results there instead, whatever was run
-# PEER_CFLAGS=...  how the yardstick is compiled: with what was the fastest of those tried on it, so for this machine
+# PEER_CFLAGS=...  how the yardstick is compiled: for this machine, as was the fastest of what was tried
 set -eu
 cd "$(dirname "$0")/.."
 program=${ECLAIRAGE:-build/eclairage}

@@ -41,8 +41,9 @@ TARGETS = {
 COURSE_TARGET = 20
 ALL = [*TARGETS, "course", "4k"]
 
-# The share of pixels, in percent, that may be off by more than 2/255 (same_picture.c).
-PICTURE_TOLERANCE = {"embree": 0.1, "povray": 0.02, "tachyon": 0.1}
+# The share of pixels, in percent, that may be off by more than 2/255 (same_picture.c): twice what was measured of
+# Embree, whose hits and shadows are float (bench/NOTES.md), and some pixels at edges of the others.
+PICTURE_TOLERANCE = {"embree": 0.1, "povray": 0.02, "tachyon": 0.02}
 NAMES = {"embree": "Embree", "povray": "POV-Ray", "tachyon": "Tachyon"}
 PACKAGES = {"embree": "libembree-dev 3", "povray": "povray", "tachyon": "tachyon-bin-nox"}
 
@@ -56,7 +57,8 @@ class Failure(Exception):
 # ---------------------------------------------------------------------------------------------------------------------
 
 def run(command, folder):
-    """Run it there; returns its wall time in seconds and all it printed. A home of its own keeps POV-Ray's settings out."""
+    """Run it there; returns its wall time in seconds and all it printed."""
+    # A home of its own keeps the user's settings of POV-Ray out.
     environment = dict(os.environ, HOME=folder, POVINI=os.path.join(folder, "empty.ini"))
     start = time.perf_counter()
     try:
@@ -127,7 +129,8 @@ class Bench:
         return path if os.path.exists(path) else None
 
     def findPeers(self):
-        found = {"embree": self.tool("embree_peer"), "povray": shutil.which("povray"), "tachyon": shutil.which("tachyon")}
+        found = {"embree": self.tool("embree_peer"), "povray": shutil.which("povray"),
+                 "tachyon": shutil.which("tachyon")}
         for peer, program in found.items():
             if program:
                 self.peers.append(peer)
@@ -145,7 +148,8 @@ class Bench:
 
     def renderEmbree(self, scene):
         shapes = scene + (".obj" if scene.startswith("mesh") else ".sph")
-        _, said = run([self.tool("embree_peer"), shapes, str(self.options.width), picture(scene, "embree")], self.folder)
+        command = [self.tool("embree_peer"), shapes, str(self.options.width), picture(scene, "embree")]
+        _, said = run(command, self.folder)
         result = json.loads(said)
         self.versions["embree"] = result["version"]
         return {part: result[part] for part in ("build", "trace")}
@@ -156,8 +160,8 @@ class Bench:
         return {"whole": took, "trace": float(find(r"Trace Time:.*\(([0-9.]+) seconds\)", said, "povray"))}
 
     def renderTachyon(self, scene):
-        took, said = run(["tachyon", scene + ".dat", "+V", "-numthreads", str(THREADS), "-shade_phong", "-format", "PPM",
-                          "-o", picture(scene, "tachyon")], self.folder)
+        took, said = run(["tachyon", scene + ".dat", "+V", "-numthreads", str(THREADS), "-shade_phong",
+                          "-format", "PPM", "-o", picture(scene, "tachyon")], self.folder)
         self.versions["tachyon"] = find(r"Tachyon.*Version (\S+)", said, "tachyon")
         return {"whole": took, "trace": float(find(r"Ray Tracing Time:\s*([0-9.]+)", said, "tachyon"))}
 
@@ -225,8 +229,8 @@ class Bench:
                              COURSE_ROUNDS)
 
     def drawLarge(self):
-        self.attempt("4k", "ours", "whole",
-                     lambda: self.renderOurs(self.largePath(), "ours.png", THREADS, "--width", "3840", "--height", "2160")[0],
+        size = ["--width", "3840", "--height", "2160"]
+        self.attempt("4k", "ours", "whole", lambda: self.renderOurs(self.largePath(), "ours.png", THREADS, *size)[0],
                      self.options.rounds)
 
     @staticmethod
@@ -268,7 +272,8 @@ class Bench:
     def addSceneRows(self, scenes):
         def eachScene(row, peer, part, target):
             for scene in scenes:
-                self.addRatio(row, (scene, peer, part), (scene, "ours", part), at_least=TARGETS.get(scene, {}).get(target))
+                self.addRatio(row, (scene, peer, part), (scene, "ours", part),
+                              at_least=TARGETS.get(scene, {}).get(target))
 
         eachScene("trace: Embree / ours", "embree", "trace", "embree")
         eachScene("trace: POV-Ray / ours", "povray", "trace", "povray")
@@ -284,8 +289,8 @@ class Bench:
                           at_most=1.0)
             self.addBytesRow()
         if "rnd1m" in scenes and "rnd100k" in scenes:
-            self.addRatio("trace: rnd1m / rnd100k", ("rnd1m", "ours", "trace"), ("rnd100k", "ours", "trace"), at_most=1.8,
-                          scene="rnd1m")
+            self.addRatio("trace: rnd1m / rnd100k", ("rnd1m", "ours", "trace"), ("rnd100k", "ours", "trace"),
+                          scene="rnd1m", at_most=1.8)
 
     def addBytesRow(self):
         if not self.tool("scene_bytes"):
@@ -306,10 +311,12 @@ class Bench:
                         at_least=COURSE_TARGET)
 
     def addLargeRow(self):
+        """At most 2.5 times the trace or 0.25 s more than it, whichever is larger."""
         whole, trace = (self.seconds.summary("4k", "ours", part) for part in ("whole", "trace"))
         if whole:
-            self.addRow("3840x2160, whole process, trace %.3f s" % trace, os.path.basename(self.largePath())[:-len(".yaml")],
-                        whole, "seconds", at_most=max(2.5 * trace, trace + 0.25),
+            scene = os.path.basename(self.largePath())[:-len(".yaml")]
+            self.addRow("whole process: ours at 3840x2160", scene, whole, "seconds", trace=round(trace, 4),
+                        at_most=max(2.5 * trace, trace + 0.25),
                         median=self.seconds.summary("4k", "ours", "whole", statistics.median))
 
     def comparePictures(self, scenes):
