@@ -370,8 +370,8 @@ class Bench:
             print("pictures agree: all %d" % len(compared))
 
     def writeResults(self, path):
-        """A row is a line, so that a change of one is seen as such. Written through a file beside it that is renamed, so
-        that there is never half a file.
+        """A row is a line, so that a change of one is seen as such. Renamed from a file beside it, so that there is
+        never half a file.
         """
         head = {"machine": machine(), "engine": self.options.engine, "width": self.options.width, "threads": THREADS,
                 "rounds": self.options.rounds, "versions": dict(sorted(self.versions.items()))}
