@@ -192,7 +192,7 @@ setup:
 lint:
 	@tools/check-format.sh
 	@tools/check-includes.sh
-	@if command -v shellcheck >/dev/null; then shellcheck tools/*.sh .ci/run $(wildcard tests/suites/*.sh); \
+	@if command -v shellcheck >/dev/null; then shellcheck tools/*.sh .ci/run $(wildcard tests/suites/*.sh) bench/peers.sh; \
 	else echo 'shellcheck is not installed: the shell scripts were not checked.'; fi
 
 ## format: lay out all C files with clang-format 14
@@ -203,9 +203,11 @@ format:
 fuzz:
 	@BUILD='$(BUILD)' tests/fuzz/load.sh
 
-## bench: run the benchmarks
-bench: all
-	@set -e; for script in $(wildcard bench/*.sh); do ECLAIRAGE='$(BUILD)/eclairage' "$$script"; done
+## bench: install the peers that are missing, and run the benchmarks; bench/peers.sh alone compares with the peers
+bench:
+	@$(INSTALLER) build bench
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	@set -e; for script in $(wildcard bench/*.sh); do CC='$(CC)' ECLAIRAGE='$(BUILD)/eclairage' "$$script"; done
 
 ## update-results: measure again and rewrite the committed numbers
 update-results: all

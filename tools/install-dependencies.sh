@@ -4,9 +4,9 @@
 #   tools/install-dependencies.sh PURPOSE...             install what is missing; prints nothing if nothing is
 #   tools/install-dependencies.sh --missing PURPOSE...   only say in one line what is missing, if anything
 #
-# Purposes: build, demo, unit, test, browser (see the tables below). A thing counts as present when it works,
+# Purposes: build, demo, unit, test, browser, bench (see the tables below). A thing counts as present when it works,
 # wherever it came from, so a compiler or node that apt knows nothing of is left alone. Optional things only
-# add tests: without them these are skipped, aloud. CC and PKG_CONFIG name the programs to use.
+# add tests or benchmarks: without them these are skipped, aloud. CC and PKG_CONFIG name the programs to use.
 
 # The functions of the tables are called by name.
 # shellcheck disable=SC2317
@@ -58,10 +58,23 @@ need_browser() {
     suggest npm has npm
 }
 
+need_bench() {
+    # The peers that we are measured against. Where libembree-dev is Embree 4, there is no 3 to install.
+    suggest python3 has python3
+    suggest povray has povray
+    suggest tachyon-bin-nox has tachyon
+    suggest libembree-dev embreeExists
+    suggest time test -x /usr/bin/time
+}
+
 compilerWorks() {
     # CC may be several words, such as `ccache gcc`.
     # shellcheck disable=SC2086
     echo '#include <stdio.h>' | ${CC:-cc} -E - >/dev/null 2>&1
+}
+embreeExists() {
+    # shellcheck disable=SC2086
+    echo '#include <embree3/rtcore.h>' | ${CC:-cc} -E - >/dev/null 2>&1 || test -e /usr/include/embree4/rtcore.h
 }
 chromiumExists() {
     has chromium || has chromium-browser || has google-chrome
@@ -97,7 +110,7 @@ fi
 purposes=$*
 for purpose in $purposes; do
     case $purpose in
-    build | demo | unit | test | browser) ;;
+    build | demo | unit | test | browser | bench) ;;
     *)
         echo "install-dependencies.sh: there is no purpose '$purpose'." >&2
         exit 2
@@ -200,13 +213,13 @@ if [ -n "$suggested" ]; then
         for package in $suggested; do
             hasCandidate "$package" || updateLists || true
             if ! hasCandidate "$package"; then
-                echo "There is no package $package here: the tests that need it will be skipped."
+                echo "There is no package $package here: what needs it will be skipped."
             elif ! installPackages "$package"; then
-                explainFailure "apt-get could not install $package: the tests that need it will be skipped."
+                explainFailure "apt-get could not install $package: what needs it will be skipped."
             fi
         done
     else
-        echo "They are optional: the tests that need them will be skipped." >&2
+        echo "They are optional: what needs them will be skipped." >&2
     fi
 fi
 
