@@ -4,8 +4,6 @@
  * in the order in which POV-Ray does it, so that the two pictures can agree in every bit.
  */
 #include "shading.h"
-#include "power.h"
-
 Material createMaterial(Color3f diffuse, Color3f specular, float shininess)
 {
     return (Material){.diffuse = diffuse, .specular = specular, .shininess = shininess, .ior = 1};
@@ -29,7 +27,7 @@ Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, V
     double cosine = dot(r, v);
     if (!(cosine > 0))
         return createColor(0, 0, 0);
-    return scaleColor(light, power(cosine, (double)material->shininess));
+    return scaleColor(light, highlightPower(cosine, (double)material->shininess));
 }
 
 Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v)
@@ -37,5 +35,5 @@ Color3f blinnHighlight(const Material *material, Color3f light, Vector3D n, Vect
     double cosine = blinnCosine(n, l, v);
     if (!(cosine > 0))
         return createColor(0, 0, 0);
-    return scaleColor(light, power(cosine, (double)material->shininess));
+    return scaleColor(light, highlightPower(cosine, (double)material->shininess));
 }

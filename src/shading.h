@@ -9,6 +9,9 @@
 #include "colors.h"
 #include "geometry.h"
 #include "patterns/pattern.h"
+#include "power.h"
+
+#include <stdbool.h>
 
 /* The models, each adding a term: simple (unlit), Lambert (diffuse), Phong (diffuse and specular); Blinn's
  * has its highlight by the half vector. */
@@ -47,6 +50,32 @@ Color3f diffuseReflection(const Material *material, Color3f light, Vector3D n, V
  * specular colour Ispec multiplies the sum over all lights. It has no factor dot(N, L): whoever calls it
  * must have left out the lights behind the surface. */
 Color3f specularHighlight(const Material *material, Color3f light, Vector3D n, Vector3D l, Vector3D v);
+
+/* The largest exponent that is multiplied out. */
+#define LARGEST_WHOLE_SHININESS 64
+
+static inline bool isWholeShininess(double shininess)
+{
+    return shininess <= LARGEST_WHOLE_SHININESS && shininess == (double)(int)shininess;
+}
+
+/* cosine^shininess by squaring, shininess being whole and at most LARGEST_WHOLE_SHININESS: exact but for one
+ * rounding a multiplication, so to some 2^-47, and far faster than power(). */
+static inline double wholePower(double cosine, int shininess)
+{
+    double result = 1;
+    for (; shininess != 0; shininess >>= 1) {
+        result = (shininess & 1) != 0 ? result * cosine : result;
+        cosine *= cosine;
+    }
+    return result;
+}
+
+/* What a highlight fades with: cosine^shininess; both at least 0. */
+static inline double highlightPower(double cosine, double shininess)
+{
+    return isWholeShininess(shininess) ? wholePower(cosine, (int)shininess) : power(cosine, shininess);
+}
 
 /* dot(N, H), H halfway between L and V; 0 where they are opposite. */
 static inline double blinnCosine(Vector3D n, Vector3D l, Vector3D v)

@@ -55,6 +55,29 @@ bool primitiveBlocks(const CompiledScene *compiled, int32_t primitive, const Sha
     return meetAbove(compiled, primitive, &shadow->ray, shadow->above, &hit) < shadow->farthest;
 }
 
+bool primitiveIsPassed(const CompiledScene *compiled, int32_t primitive, Vector3D start,
+                       const ArrivingLight *light)
+{
+    if (primitiveKind(compiled, primitive) != PRIMITIVE_TRIANGLE || !isfinite(light->distance))
+        return false;
+    MeshPart part = compiled->triangles[(size_t)primitive - compiled->sphereCount];
+    const Object *object = &compiled->scene->objects[part.object];
+    if (object->transform != NULL)
+        return false;
+    Vector3D p[3];
+    meshCorners(object->mesh.data, part.triangle, p);
+    Vector3D normal = triangleCross(p);
+    double startSide = dot(normal, subVectors(start, p[0]));
+    double lightSide = dot(normal, subVectors(light->position, p[0]));
+    /* The distance of the start from the plane decides the sign of the hit's, which rounding cannot turn when
+     * it is this large; the light is far from the plane, so that the hit is not next to it. */
+    double size = norm(normal) * (largestCoordinate(start) + largestCoordinate(p[0]));
+    double lightSize = size + norm(normal) * largestCoordinate(light->position);
+    double margin = 0x1p-46 * size, lightMargin = 0x1p-30 * lightSize;
+    return (startSide > margin && lightSide > lightMargin) ||
+           (startSide < -margin && lightSide < -lightMargin);
+}
+
 void meetEndless(const CompiledScene *compiled, const Ray *ray, Hit *hit, uint32_t *object)
 {
     hit->distance = INFINITY;

@@ -11,6 +11,11 @@ double meetPrimitive(const CompiledScene *compiled, int32_t primitive, const Ray
 /* Whether the primitive lies between the ends of the shadow ray. */
 bool primitiveBlocks(const CompiledScene *compiled, int32_t primitive, const ShadowRay *shadow);
 
+/* Whether both ends of the way from `start` to the light are surely on the same side of the primitive's
+ * plane, when it is a flat thing: then it blocks nothing, and the shadow ray need not be made. */
+bool primitiveIsPassed(const CompiledScene *compiled, int32_t primitive, Vector3D start,
+                       const ArrivingLight *light);
+
 /* The nearest of the objects without a box, planes among them: its hit, and its number in the scene. Where
  * there is none hit->distance is INFINITY, and *object above all numbers. */
 void meetEndless(const CompiledScene *compiled, const Ray *ray, Hit *hit, uint32_t *object);

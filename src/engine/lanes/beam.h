@@ -11,7 +11,7 @@
 #include "engine/lanes/bundle.h"
 
 /* See bundle.h; and an error that nothing is below, so that its square is no denormal number. */
-#define FLOAT_ERROR 0x1p-19f
+#define FLOAT_ERROR 0x1.4p-20f
 #define LEAST_ERROR 1e-15f
 
 typedef struct Beam {
@@ -24,11 +24,12 @@ typedef struct Beam {
     /* The same of each packet; a packet without active rays has bounds that nothing is within. */
     F8 packetUMin, packetUMax, packetVMin, packetVMax;
     F8 packetUMinLength, packetUMaxLength, packetVMinLength, packetVMaxLength;
-    float slopeMax;  /* the largest slope, at least 1 */
-    float slopeRoot; /* its square root */
-    float errorBase; /* FLOAT_ERROR |O| + LEAST_ERROR */
-    float nodeError; /* d for anything in the tree */
-    float reach;     /* the largest depth of interest */
+    float slopeMax;   /* the largest slope, at least 1 */
+    float slopeRoot;  /* its square root */
+    float floatError; /* FLOAT_ERROR, more where rays go far to the side */
+    float errorBase;  /* floatError |O| + LEAST_ERROR */
+    float nodeError;  /* d for anything in the tree */
+    float reach;      /* the largest depth of interest */
 } Beam;
 
 /* The place of a coordinate in a node's floats: min is first, then max. */
@@ -93,8 +94,10 @@ static inline void createBeam(const Bundle *bundle, Beam *beam)
     beam->vMinLength = lengths[2];
     beam->vMaxLength = lengths[3];
 
-    beam->errorBase = FLOAT_ERROR * bundle->largest + LEAST_ERROR;
-    beam->nodeError = beam->errorBase + FLOAT_ERROR * 2;
+    float aside = sqrtf(beam->slopeMax - 1);
+    beam->floatError = FLOAT_ERROR * (aside > 1 ? aside : 1);
+    beam->errorBase = beam->floatError * bundle->largest + LEAST_ERROR;
+    beam->nodeError = beam->errorBase + beam->floatError * 2;
     for (int k = 0; k < 4; k++) {
         const float *side = bundle->axes[k / 2], *depth = bundle->axes[2];
         float sign = k % 2 == 0 ? 1.0f : -1.0f;
@@ -170,7 +173,7 @@ static inline unsigned beamMeetsSpheres(const Bundle *bundle, const Beam *beam, 
 {
     F8 p[3], radius = f8Load(block->radius);
     toFrame(bundle, block->x, block->y, block->z, p);
-    F8 error = f8MultAdd(f8Set(FLOAT_ERROR), largestOf(block->x, block->y, block->z) + radius,
+    F8 error = f8MultAdd(f8Set(beam->floatError), largestOf(block->x, block->y, block->z) + radius,
                          f8Set(beam->errorBase));
     f8Store(local->x, p[0]);
     f8Store(local->y, p[1]);
@@ -262,7 +265,8 @@ static inline SphereDepths sphereDepths(const Bundle *bundle, int p, const OneSp
 /* Eight triangles in the frame. The ray (u, v) passes the edge opposite corner i on the inner side when
  * edges[i] . (u, v, 1) > 0; its depth, or of a central bundle 1 over it, is depth . (u, v, 1). */
 typedef struct LocalTriangles {
-    _Alignas(32) float corners[3][3][8]; /* [corner][axis] */
+    _Alignas(32) float uMin[8], uMax[8], vMin[8],
+        vMax[8]; /* of the corners, as rays go to them; with errors */
     float edges[3][3][8];
     float depth[3][8];
     float edgeMargin[8]; /* 3 d L sqrt(slope), L the longest edge; INFINITY: only the referee knows */
@@ -350,55 +354,58 @@ static inline void setUpTriangles(bool isParallel, float slopeRoot, F8 p[3][3], 
     }
 }
 
-/* Which of the triangles the beam meets, as bits. */
+/* Which of the triangles the beam meets, as bits. A ray to a point of a triangle has u and v between those of
+ * the corners, unless a corner is beside the rays' origin or behind it: then nothing is known. */
 static inline unsigned beamMeetsTriangles(const Bundle *bundle, const Beam *beam, const TriangleBlock *block,
                                           LocalTriangles *local)
 {
-    F8 p[3][3], largest = f8Set(0), zero = f8Set(0), one = f8Set(1);
+    F8 p[3][3], largest = f8Set(0), one = f8Set(1);
     for (int c = 0; c < 3; c++) {
         toFrame(bundle, block->corners[c][0], block->corners[c][1], block->corners[c][2], p[c]);
         largest = f8Max(largest, largestOf(block->corners[c][0], block->corners[c][1], block->corners[c][2]));
-        for (int axis = 0; axis < 3; axis++)
-            f8Store(local->corners[c][axis], p[c][axis]);
     }
-    F8 d = f8MultAdd(f8Set(FLOAT_ERROR), largest, f8Set(beam->errorBase));
-    I8 inside = least3(p[0][2], p[1][2], p[2][2]) - d <= f8Set(beam->reach);
-    inside &= largest3(p[0][2], p[1][2], p[2][2]) + d >= f8Set(bundle->startDepth);
-    const float bounds[4] = {beam->uMin, beam->uMax, beam->vMin, beam->vMax};
-    const float lengths[4] = {beam->uMinLength, beam->uMaxLength, beam->vMinLength, beam->vMaxLength};
-    for (int k = 0; k < 4; k++) {
-        F8 farthest = f8Set(-INFINITY), bound = f8Set(bounds[k]);
-        for (int c = 0; c < 3; c++) {
-            F8 w = bundle->isParallel ? one : p[c][2], side = p[c][k / 2];
-            farthest = f8Max(farthest, k % 2 == 0 ? f8NegMultAdd(bound, w, side) : f8MultSub(bound, w, side));
-        }
-        inside &= f8MultAdd(f8Set(lengths[k]), d, farthest) >= zero;
+    F8 d = f8MultAdd(f8Set(beam->floatError), largest, f8Set(beam->errorBase));
+    F8 zMin = least3(p[0][2], p[1][2], p[2][2]), zMax = largest3(p[0][2], p[1][2], p[2][2]);
+    F8 u[3], v[3], margin = d;
+    for (int c = 0; c < 3; c++) {
+        F8 inverse = bundle->isParallel ? one : one / p[c][2];
+        u[c] = p[c][0] * inverse;
+        v[c] = p[c][1] * inverse;
     }
+    F8 uMin = least3(u[0], u[1], u[2]), uMax = largest3(u[0], u[1], u[2]);
+    F8 vMin = least3(v[0], v[1], v[2]), vMax = largest3(v[0], v[1], v[2]);
+    I8 known = i8Set(-1);
+    if (!bundle->isParallel) {
+        /* A corner moved by d goes from u to less than u + 2 d (1 + |u|) / z away, when z is above 2 d. */
+        F8 size = f8Max(f8Max(f8Abs(uMin), f8Abs(uMax)), f8Max(f8Abs(vMin), f8Abs(vMax)));
+        margin = f8Set(2) * d * (one + size) / zMin;
+        known = zMin > f8Set(4) * d;
+    }
+    F8 low = f8Set(-INFINITY), high = f8Set(INFINITY);
+    uMin = f8Select(known, uMin - margin, low);
+    uMax = f8Select(known, uMax + margin, high);
+    vMin = f8Select(known, vMin - margin, low);
+    vMax = f8Select(known, vMax + margin, high);
+    I8 inside = (zMin - d <= f8Set(beam->reach)) & (zMax + d >= f8Set(bundle->startDepth));
+    inside &= (uMax >= f8Set(beam->uMin)) & (uMin <= f8Set(beam->uMax));
+    inside &= (vMax >= f8Set(beam->vMin)) & (vMin <= f8Set(beam->vMax));
     unsigned met = maskBits(inside);
-    if (met != 0)
-        setUpTriangles(bundle->isParallel, beam->slopeRoot, p, d, local);
+    if (met == 0)
+        return 0;
+    f8Store(local->uMin, uMin);
+    f8Store(local->uMax, uMax);
+    f8Store(local->vMin, vMin);
+    f8Store(local->vMax, vMax);
+    setUpTriangles(bundle->isParallel, beam->slopeRoot, p, d, local);
     return met;
 }
 
 /* The packets that triangle i may meet, as bits. */
-static inline unsigned packetsMeetTriangle(const Bundle *bundle, const Beam *beam,
-                                           const LocalTriangles *local, int i)
+static inline unsigned packetsMeetTriangle(const Beam *beam, const LocalTriangles *local, int i)
 {
-    F8 d = f8Set(local->error[i]), zero = f8Set(0), low = f8Set(-INFINITY);
-    F8 farthest[4] = {low, low, low, low};
-    for (int c = 0; c < 3; c++) {
-        F8 x = f8Set(local->corners[c][0][i]), y = f8Set(local->corners[c][1][i]);
-        F8 w = f8Set(bundle->isParallel ? 1 : local->corners[c][2][i]);
-        farthest[0] = f8Max(farthest[0], f8NegMultAdd(beam->packetUMin, w, x));
-        farthest[1] = f8Max(farthest[1], f8MultSub(beam->packetUMax, w, x));
-        farthest[2] = f8Max(farthest[2], f8NegMultAdd(beam->packetVMin, w, y));
-        farthest[3] = f8Max(farthest[3], f8MultSub(beam->packetVMax, w, y));
-    }
-    I8 inside = f8MultAdd(d, beam->packetUMinLength, farthest[0]) >= zero;
-    inside &= f8MultAdd(d, beam->packetUMaxLength, farthest[1]) >= zero;
-    inside &= f8MultAdd(d, beam->packetVMinLength, farthest[2]) >= zero;
-    inside &= f8MultAdd(d, beam->packetVMaxLength, farthest[3]) >= zero;
-    return maskBits(inside);
+    return maskBits(
+        (f8Set(local->uMax[i]) >= beam->packetUMin) & (f8Set(local->uMin[i]) <= beam->packetUMax) &
+        (f8Set(local->vMax[i]) >= beam->packetVMin) & (f8Set(local->vMin[i]) <= beam->packetVMax));
 }
 
 /* Where the eight rays of a packet meet a triangle. */

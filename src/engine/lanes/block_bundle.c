@@ -26,6 +26,9 @@ static __attribute__((noinline)) unsigned refereeBlocked(const Bundle *bundle, i
     unsigned blocked = 0;
     for (; rays != 0; rays &= rays - 1) {
         int i = __builtin_ctz(rays);
+        if (primitiveIsPassed(bundle->compiled, candidate, laneVector(bundle->origins, 8 * p + i),
+                              bundle->light))
+            continue;
         ShadowRay shadow = exactShadow(bundle, 8 * p + i);
         if (primitiveBlocks(bundle->compiled, candidate, &shadow))
             blocked |= 1u << i;
@@ -102,8 +105,7 @@ static bool blockByTriangles(Bundle *bundle, const Beam *beam, const TriangleBlo
         int32_t candidate = block->primitives[i];
         if (skips(bundle->compiled, candidate))
             continue;
-        for (unsigned packets = packetsMeetTriangle(bundle, beam, &local, i); packets != 0;
-             packets &= packets - 1) {
+        for (unsigned packets = packetsMeetTriangle(beam, &local, i); packets != 0; packets &= packets - 1) {
             int p = __builtin_ctz(packets);
             if (bundle->active[p] == 0)
                 continue;

@@ -11,13 +11,14 @@
  *
  * So one test of a box looks at all 64 rays, and one of a sphere or triangle at 8.
  *
- * The filter and its margins. A coordinate that is converted to float, moved to O and turned into the frame
- * is wrong by less than d = 2^-19 (|O| + |c|), |c| being the largest coordinate of the thing, its radius
- * added, and |O| that of the origin and of the rays' ends: three conversions and differences (3 x 2^-24, by
- * sqrt(3) as a length), three axes rounded to float (1.5 x 2^-24) and a sum of three products (3 sqrt(3) x
- * 2^-24) make 0.75 x 2^-20, u and v rounded as much again for |u|, |v| up to 1; what is larger is in
- * slopeMax. Every decision below is made with what such an error can do to it, and what is nearer to the
- * border than that is left to the referee. README.md has the margins of each test.
+ * The filter and its margins. A point that is converted to float, moved to O and turned into the frame is
+ * wrong, as a vector, by less than d = 1.25 x 2^-20 (|O| + |c|), |c| being the largest coordinate of the
+ * thing, its radius added, and |O| that of the origin. In units of 2^-24 (|O| + |c|): two conversions and a
+ * difference, 1 each and by sqrt(3) as a vector, 5.2; axes rounded to float, 1.5 each, and sums of three
+ * products, 3 sqrt(3) each, by sqrt(3), 11.6; u and v rounded, sqrt(6) times the larger of them;
+ * together 16.8 + 2.4 = 19.2 < 20 for u and v up to 1, and floatError takes care of larger ones. Every
+ * decision below is made with what such an error can do to it, and what is nearer to the border than that is
+ * left to the referee. README.md has the margins of each test.
  */
 #ifndef ECLAIRAGE_ENGINE_BUNDLE_H
 #define ECLAIRAGE_ENGINE_BUNDLE_H

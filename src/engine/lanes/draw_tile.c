@@ -9,10 +9,11 @@ void PATH(drawTile)(const TileJob *job, int left, int top, uint32_t *lastBlocks,
     tile.job = job;
     tile.lastBlocks = lastBlocks;
     tile.counts = counts;
-    tile.inPicture = 0;
-    EACH_LANE(k)
-    if (left + laneX(k) < framebuffer->width && top + laneY(k) < framebuffer->height)
-        tile.inPicture |= 1ull << k;
+    tile.inPicture = ~0ull;
+    if (left + TILE_SIDE > framebuffer->width || top + TILE_SIDE > framebuffer->height)
+        EACH_LANE(k)
+    if (left + laneX(k) >= framebuffer->width || top + laneY(k) >= framebuffer->height)
+        tile.inPicture &= ~(1ull << k);
 
     /* The mean of n x n rays, evenly spread; of one, through the middle. As renderPixel of the course's
      * tracer. */

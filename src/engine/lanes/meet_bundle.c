@@ -123,8 +123,7 @@ static bool meetTriangles(Bundle *bundle, const Beam *beam, const TriangleBlock 
         int32_t candidate = block->primitives[i];
         if (candidate == NO_PRIMITIVE)
             continue;
-        for (unsigned packets = packetsMeetTriangle(bundle, beam, &local, i); packets != 0;
-             packets &= packets - 1) {
+        for (unsigned packets = packetsMeetTriangle(beam, &local, i); packets != 0; packets &= packets - 1) {
             int p = __builtin_ctz(packets);
             TriangleDepths depths = triangleDepths(bundle, p, &local, i);
             if (maskBits(depths.possible) == 0)

@@ -157,6 +157,8 @@ static void storePoint(TileLanes *tile, int k, const Object *object, const Hit *
     setLaneVector(&tile->normals, k, point.normal);
     setLaneVector(&tile->flatNormals, k, point.flatNormal);
     tile->surfaces[k] = hit->object;
+    if (hit->object != object)
+        tile->materials[k] = PART_MATERIAL;
 }
 
 /* The lanes of each way to work out a hit. */
@@ -195,6 +197,7 @@ static HitWays sortHitLanes(TileLanes *tile)
             *(kind == PRIMITIVE_SPHERE ? &ways.spheres : isFlat ? &ways.triangles : &ways.others) |= bit;
         }
         tile->surfaces[k] = &compiled->scene->objects[tile->objects[k]];
+        tile->materials[k] = (int32_t)compiled->objectMaterial[tile->objects[k]];
     }
     return ways;
 }

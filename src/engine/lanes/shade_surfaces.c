@@ -12,20 +12,6 @@
 
 /* ---- Materials ---- */
 
-/* The material of the surface that each lane meets. */
-static void findMaterials(TileLanes *tile)
-{
-    const CompiledScene *compiled = tile->job->compiled;
-    EACH_SET(k, tile->met)
-    {
-        uint32_t object = tile->objects[k];
-        /* A solid's parts have their own. */
-        tile->materials[k] = tile->surfaces[k] == &compiled->scene->objects[object]
-                                 ? &compiled->materials[compiled->objectMaterial[object]]
-                                 : &tile->surfaces[k]->material;
-    }
-}
-
 /* Give these lanes a material. */
 static void setMaterial(TileLanes *tile, uint64_t lanes, const Material *material)
 {
@@ -68,17 +54,21 @@ static void setMaterial(TileLanes *tile, uint64_t lanes, const Material *materia
 /* Bring the materials into lanes, one material at a time: few tiles have many. */
 static void gatherMaterials(TileLanes *tile)
 {
+    const CompiledScene *compiled = tile->job->compiled;
     tile->simple = tile->phong = tile->blinn = tile->secondary = 0;
-    findMaterials(tile);
     for (uint64_t left = tile->met; left != 0;) {
-        const Material *material = tile->materials[__builtin_ctzll(left)];
-        uint64_t lanes = 0;
-        EACH_SET(k, left)
-        {
-            if (tile->materials[k] == material)
-                lanes |= 1ull << k;
+        int first = __builtin_ctzll(left);
+        int32_t number = tile->materials[first];
+        if (number == PART_MATERIAL) {
+            setMaterial(tile, 1ull << first, &tile->surfaces[first]->material);
+            left &= left - 1;
+            continue;
         }
-        setMaterial(tile, lanes, material);
+        MaskLanes same;
+        EACH_LANE(k)
+        same.v[k] = tile->materials[k] == number ? -1 : 0;
+        uint64_t lanes = setOfMask(&same) & left;
+        setMaterial(tile, lanes, &compiled->materials[number]);
         left &= ~lanes;
     }
 }
@@ -89,9 +79,10 @@ static void gatherMaterials(TileLanes *tile)
 typedef struct LightLanes {
     VectorLanes directions; /* to the light, of unit length */
     ColorLanes colors;
-    VectorLanes starts; /* of the shadow rays, off the surface */
-    MaskLanes lit;      /* before shadows: the light is in front of the surface and not black there */
-    MaskLanes leaves;   /* the ray to the light surely leaves the surface it starts on */
+    NumberLanes cosines; /* dot(N, L) */
+    VectorLanes starts;  /* of the shadow rays, off the surface */
+    MaskLanes lit;       /* before shadows: the light is in front of the surface and not black there */
+    MaskLanes leaves;    /* the ray to the light surely leaves the surface it starts on */
 } LightLanes;
 
 /* As lightArriving, for one point light of a point or area light. */
@@ -141,7 +132,9 @@ static void arrive(const TileLanes *tile, const Light *light, int sample, LightL
     {
         Vector3D l = laneVector(&arriving->directions, k), flat = laneVector(&tile->flatNormals, k);
         Color3f c = laneColor(&arriving->colors, k);
-        int inFront = dot(laneVector(&tile->normals, k), l) > 0;
+        double cosine = dot(laneVector(&tile->normals, k), l);
+        arriving->cosines.v[k] = cosine;
+        int inFront = cosine > 0;
         int black = (c.r == 0) & (c.g == 0) & (c.b == 0);
         arriving->lit.v[k] = inFront & !black ? -1 : 0;
 
@@ -403,7 +396,7 @@ static void addDiffuse(const TileLanes *tile, const LightLanes *arriving, const 
 {
     EACH_LANE(k)
     {
-        double cosine = dot(laneVector(&tile->normals, k), laneVector(&arriving->directions, k));
+        double cosine = arriving->cosines.v[k];
         Color3f term = multColors(scaleColor(laneColor(&tile->diffuse, k), cosine > 0 ? cosine : 0),
                                   laneColor(&arriving->colors, k));
         bool counts = reached->v[k] != 0;
@@ -413,19 +406,63 @@ static void addDiffuse(const TileLanes *tile, const LightLanes *arriving, const 
     }
 }
 
+/* highlightPower of each lane, one shininess at a time: few tiles have many. */
+static void raiseToShininess(const TileLanes *tile, uint64_t lanes, const NumberLanes *cosines,
+                             NumberLanes *powers)
+{
+    while (lanes != 0) {
+        double shininess = tile->shininess.v[__builtin_ctzll(lanes)];
+        MaskLanes same;
+        EACH_LANE(k)
+        same.v[k] = tile->shininess.v[k] == shininess ? -1 : 0;
+        if (isWholeShininess(shininess)) {
+            /* wholePower, its loop outside that over lanes. */
+            NumberLanes squares, products;
+            EACH_LANE(k)
+            {
+                squares.v[k] = cosines->v[k];
+                products.v[k] = 1;
+            }
+            for (int left = (int)shininess; left != 0; left >>= 1) {
+                if ((left & 1) != 0)
+                    EACH_LANE(k) products.v[k] *= squares.v[k];
+                EACH_LANE(k)
+                squares.v[k] *= squares.v[k];
+            }
+            EACH_LANE(k)
+            powers->v[k] = same.v[k] != 0 ? products.v[k] : powers->v[k];
+        } else {
+            EACH_LANE(k)
+            {
+                double raised = power(cosines->v[k], shininess);
+                powers->v[k] = same.v[k] != 0 ? raised : powers->v[k];
+            }
+        }
+        lanes &= ~setOfMask(&same);
+    }
+}
+
 /* The highlights of these lanes, from the cosine of each. */
-static void addPowers(const TileLanes *tile, const LightLanes *arriving, const NumberLanes *cosines,
-                      uint64_t lanes, ColorLanes *sum)
+static void addPowers(const TileLanes *tile, const LightLanes *arriving, NumberLanes *cosines, uint64_t lanes,
+                      ColorLanes *sum)
 {
     MaskLanes counts;
     maskOfSet(lanes, &counts);
     NumberLanes powers;
     EACH_LANE(k)
-    powers.v[k] = power(cosines->v[k] > 0 ? cosines->v[k] : 0, tile->shininess.v[k]);
+    {
+        counts.v[k] = cosines->v[k] > 0 ? counts.v[k] : 0;
+        cosines->v[k] = cosines->v[k] > 0 ? cosines->v[k] : 0;
+        powers.v[k] = 0;
+    }
+    lanes = setOfMask(&counts);
+    if (lanes == 0)
+        return;
+    raiseToShininess(tile, lanes, cosines, &powers);
     EACH_LANE(k)
     {
         Color3f term = scaleColor(laneColor(&arriving->colors, k), powers.v[k]);
-        bool adds = counts.v[k] != 0 && cosines->v[k] > 0;
+        bool adds = counts.v[k] != 0;
         sum->r[k] += adds ? term.r : 0;
         sum->g[k] += adds ? term.g : 0;
         sum->b[k] += adds ? term.b : 0;
@@ -525,7 +562,7 @@ static void shadeSingly(TileLanes *tile)
         if ((tile->simple >> k & 1) != 0) {
             color = shade(finder, &point, &ray, &media, 1, tile->counts);
         } else {
-            Material material = *tile->materials[k];
+            Material material = tile->surfaces[k]->material;
             color = addSecondaryRays(finder, &point, &material, &ray, &media, 1, laneColor(&tile->colors, k),
                                      tile->counts);
         }

@@ -62,6 +62,9 @@ static inline int laneY(int k)
     return (k >> 4) * 2 + (k >> 2 & 1);
 }
 
+/* The material of a part of a solid, which the surface itself has. */
+#define PART_MATERIAL (-1)
+
 typedef struct TileLanes {
     const TileJob *job;
     uint32_t *lastBlocks;
@@ -81,7 +84,7 @@ typedef struct TileLanes {
     const Object *surfaces[LANES]; /* the object, or the part of a solid, that has the surface */
 
     /* Its material there. */
-    const Material *materials[LANES];
+    _Alignas(64) int32_t materials[LANES]; /* its number among the compiled scene's, or PART_MATERIAL */
     ColorLanes diffuse, specular;
     NumberLanes shininess;
     uint64_t simple, phong, blinn, secondary; /* lanes of these models; with mirrored or refracted rays */
