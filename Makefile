@@ -53,7 +53,7 @@ ARCHITECTURE ?= $(shell uname -m)
 PORTABLE ?=
 LANE_PATHS := plain $(if $(filter x86_64,$(ARCHITECTURE)),$(if $(PORTABLE),,avx2))
 LANE_FLAGS_plain :=
-LANE_FLAGS_avx2 := -mavx2 -mfma
+LANE_FLAGS_avx2 := -mavx2 -mfma -mtune=znver3
 LANE_OPTIMIZE ?= -O3
 ENGINE_DEFINES := $(if $(filter avx2,$(LANE_PATHS)),-DECLAIRAGE_HAS_AVX2) $(if $(PORTABLE),-DECLAIRAGE_PORTABLE)
 
