@@ -1,9 +1,12 @@
 #!/bin/sh
-# load.sh - time and peak memory of loading spheres written one object a line.
+# load.sh - time and peak memory of loading many spheres, held against libyaml's own parsing.
 #
-# Usage: bench/load.sh [COUNT...]; 100,000 and 1,000,000 by default. Prints, for each count, the whole
-# process `eclairage check` in seconds (the best of three) and its peak memory, in bytes an object too.
-# Needs build/eclairage (or ECLAIRAGE), awk and GNU time.
+# Usage: bench/load.sh [COUNT...]; 100,000 and 1,000,000 by default. For each count, once as rows of one
+# `spheres` and once as one object a line: the whole process `eclairage check` and the whole process of
+# parse_yaml, which only asks libyaml for all events, take turns. Printed are the best of five of each in
+# seconds, the median of the five quotients, and the peak memory, in bytes an object too. Other work on the
+# machine hits both, so the quotient is what to compare.
+# Needs build/eclairage (or ECLAIRAGE) with its library beside it, a C compiler, awk and GNU time.
 set -eu
 
 eclairage=${ECLAIRAGE:-build/eclairage}
@@ -15,21 +18,49 @@ if ! [ -x /usr/bin/time ]; then
     echo "load: skipped, GNU time is not installed (apt-get install time)"
     exit 0
 fi
+# shellcheck disable=SC2046 # the libraries are several words
+${CC:-cc} -std=c17 -O2 -D_POSIX_C_SOURCE=200809L -Isrc -I. -pthread -o "$folder/parse_yaml" bench/parse_yaml.c \
+    "$(dirname "$eclairage")/libeclairage.a" $(pkg-config --libs libpng yaml-0.1) -lm
 
-[ $# -gt 0 ] || set -- 100000 1000000
-for count in "$@"; do
-    awk -v count="$count" 'BEGIN {
+# writeScene COUNT FORM: a scene of so many random spheres.
+writeScene() {
+    awk -v count="$1" -v form="$2" 'BEGIN {
         srand(1)
         print "camera: {position: [0, 0, 30]}"
         print "materials: {glaze: {diffuse: [1, 0, 0], specular: 0.5}}"
         print "lights: [{point: {position: [-3, 40, 30], color: 1000}}]"
         print "objects:"
+        line = "  - sphere: {center: [%.7g, %.7g, %.7g], radius: %.7g, material: glaze}\n"
+        if (form == "rows") {
+            print "  - spheres:\n      material: glaze\n      data:"
+            line = "        - [%.7g, %.7g, %.7g, %.7g]\n"
+        }
         for (i = 0; i < count; i++)
-            printf "  - sphere: {center: [%.6f, %.6f, %.6f], radius: %.6f, material: glaze}\n",
-                20 * rand() - 10, 20 * rand() - 10, 20 * rand() - 10, 0.01 + rand() / 10
-    }' >"$folder/spheres.yaml"
-    for run in 1 2 3; do
-        /usr/bin/time -f '%e %M' "$eclairage" check "$folder/spheres.yaml" 2>&1 >/dev/null | tail -n 1
-    done | sort -n | awk -v count="$count" '
-        NR == 1 { printf "load %d spheres: %.2f s, %d kB at most, %.0f bytes an object\n", count, $1, $2, 1024 * $2 / count }'
+            printf(line, 20 * rand() - 10, 20 * rand() - 10, 20 * rand() - 10, 0.01 + rand() / 10)
+    }'
+}
+
+# measure COMMAND...: its seconds and kilobytes.
+measure() {
+    /usr/bin/time -f '%e %M' "$@" 2>&1 >/dev/null | tail -n 1
+}
+
+[ $# -gt 0 ] || set -- 100000 1000000
+for count in "$@"; do
+    for form in rows objects; do
+        writeScene "$count" "$form" >"$folder/spheres.yaml"
+        for _ in 1 2 3 4 5; do
+            echo "$(measure "$folder/parse_yaml" "$folder/spheres.yaml")" \
+                "$(measure "$eclairage" check "$folder/spheres.yaml")"
+        done | awk '{ print ($1 > 0 ? $3 / $1 : 0), $0 }' | sort -n | awk -v count="$count" -v form="$form" '
+            { quotient[NR] = $1 }
+            NR == 1 || $2 < parse { parse = $2 }
+            NR == 1 || $4 < load { load = $4 }
+            $5 > memory { memory = $5 }
+            END {
+                printf("load %d spheres as %s: %.2f s, libyaml alone %.2f s, the median quotient %.2f; ", count,
+                    form, load, parse, quotient[int((NR + 1) / 2)])
+                printf("%d kB at most, %.0f bytes an object\n", memory, 1024 * memory / count)
+            }'
+    done
 done

@@ -131,6 +131,10 @@ bool addCubeToScene(Scene *scene, Cube cube);
 bool addBoxToScene(Scene *scene, Box box);
 bool addPlaneToScene(Scene *scene, Plane plane);
 
+/* Make room for so many more objects at once, which is faster than room for one after the other and takes no
+ * more memory than they need. False when memory runs out, and then the scene is as before. */
+bool reserveObjectsInScene(Scene *scene, size_t count);
+
 /* The nearest object that the ray meets at t > 0; of two at the same distance the one added first. On
  * a miss the intersection is untouched. */
 bool throwRayThroughScene(Ray ray, Scene scene, Intersection *intersection);

@@ -1,4 +1,5 @@
 /* scene_objects.c - a Scene and what is put into it; see raytracer.h. */
+#include "base/memory.h"
 #include "raytracer.h"
 
 #include <stdlib.h>
@@ -59,23 +60,30 @@ void *allocateInScene(Scene *scene, size_t size)
     return memory->data;
 }
 
-/* Make room for one more item; returns the array, or NULL when memory runs out. */
-static void *growArray(void *array, size_t count, size_t *capacity, size_t itemSize)
+/* Make room for more items; returns the array, or NULL when memory runs out. Room grows by half at least, so
+ * that adding one by one takes linear time. */
+static void *growArray(void *array, size_t count, size_t more, size_t *capacity, size_t itemSize)
 {
-    if (count < *capacity)
+    if (more <= *capacity - count)
         return array;
     size_t larger = *capacity < 8 ? 8 : *capacity + *capacity / 2;
+    if (more > SIZE_MAX - count)
+        return NULL;
+    if (larger < count + more)
+        larger = count + more;
     if (larger > SIZE_MAX / itemSize)
         return NULL;
     void *grown = realloc(array, larger * itemSize);
-    if (grown != NULL)
-        *capacity = larger;
+    if (grown == NULL)
+        return NULL;
+    *capacity = larger;
+    useLargePages(grown, larger * itemSize);
     return grown;
 }
 
 bool keepMeshInScene(Scene *scene, MeshData *mesh)
 {
-    MeshData **meshes = growArray(scene->meshes, scene->meshCount, &scene->meshCapacity, sizeof *meshes);
+    MeshData **meshes = growArray(scene->meshes, scene->meshCount, 1, &scene->meshCapacity, sizeof *meshes);
     if (meshes == NULL)
         return false;
     scene->meshes = meshes;
@@ -85,7 +93,7 @@ bool keepMeshInScene(Scene *scene, MeshData *mesh)
 
 bool addLightToScene(Scene *scene, Light light)
 {
-    Light *lights = growArray(scene->lights, scene->lightCount, &scene->lightCapacity, sizeof *lights);
+    Light *lights = growArray(scene->lights, scene->lightCount, 1, &scene->lightCapacity, sizeof *lights);
     if (lights == NULL)
         return false;
     scene->lights = lights;
@@ -93,12 +101,22 @@ bool addLightToScene(Scene *scene, Light light)
     return true;
 }
 
-bool addObjectToScene(Scene *scene, Object object)
+bool reserveObjectsInScene(Scene *scene, size_t count)
 {
-    Object *objects = growArray(scene->objects, scene->objectCount, &scene->objectCapacity, sizeof *objects);
+    if (count == 0)
+        return true;
+    Object *objects =
+        growArray(scene->objects, scene->objectCount, count, &scene->objectCapacity, sizeof *objects);
     if (objects == NULL)
         return false;
     scene->objects = objects;
+    return true;
+}
+
+bool addObjectToScene(Scene *scene, Object object)
+{
+    if (!reserveObjectsInScene(scene, 1))
+        return false;
     scene->objects[scene->objectCount++] = object;
     return true;
 }

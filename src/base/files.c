@@ -8,6 +8,7 @@
 #include "base/files.h"
 
 #include "base/cancel.h"
+#include "base/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -27,6 +28,7 @@ enum {
     WAIT_MILLISECONDS = 50, /* between two looks at cancelRequested() */
     WRITE_STEP = 1 << 20,   /* bytes between two looks at cancelRequested(), in a regular file */
     READ_STEP = 1 << 16,    /* bytes to read first where the length is not known */
+    MOST_AT_ONCE = 1 << 24, /* bytes to read between two looks at cancelRequested() */
     LINK_LIMIT = 40,        /* symbolic links to follow, as Linux does */
     NAME_LIMIT = 200        /* bytes of a file's name that its temporary file's name repeats */
 };
@@ -131,6 +133,7 @@ static bool growBuffer(Buffer *buffer, size_t firstCapacity)
     char *data = realloc(buffer->data, capacity);
     if (data == NULL)
         return false;
+    useLargePages(data, capacity);
     buffer->data = data;
     buffer->capacity = capacity;
     return true;
@@ -162,8 +165,9 @@ static Status readDescriptor(int descriptor, const char *path, size_t maxLength,
             return statusOutOfMemory();
         if (cancelRequested() || (!regular && !waitUntilReady(descriptor, POLLIN)))
             return statusInterrupted();
+        size_t room = buffer->capacity - 1 - buffer->length;
         ssize_t count =
-            read(descriptor, buffer->data + buffer->length, buffer->capacity - 1 - buffer->length);
+            read(descriptor, buffer->data + buffer->length, room < MOST_AT_ONCE ? room : MOST_AT_ONCE);
         if (count == 0)
             break;
         if (count < 0 && errno != EINTR && errno != EAGAIN)

@@ -23,7 +23,12 @@ static Status makeStatus(StatusCode code, int line, int column, const char *form
 
 Status statusOk(void)
 {
-    return (Status){.code = STATUS_OK};
+    /* Leave the rest of the message as it is: clearing it took a tenth of the time of reading an OBJ file. */
+    Status status;
+    status.code = STATUS_OK;
+    status.line = status.column = 0;
+    status.message[0] = '\0';
+    return status;
 }
 
 Status statusError(StatusCode code, const char *format, ...)

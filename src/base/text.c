@@ -2,10 +2,12 @@
 #define _GNU_SOURCE
 #include "base/text.h"
 
+#include <float.h>
 #include <locale.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,8 +107,83 @@ static void makeCLocale(void)
     cLocale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
 }
 
+/* Clinger 1990, "How to read floating point numbers accurately", section 3: an integer of at most 53 bits and
+ * a power of ten up to 10^22 are both doubles without an error, so their product or quotient is rounded once,
+ * and so correctly. */
+bool parseShortDouble(const char *string, const char **end, double *value)
+{
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    enum {
+        LARGEST_POWER = sizeof powers / sizeof *powers - 1,
+        MOST_DIGITS = 19,     /* fit into 64 bits */
+        MOST_EXPONENT = 10000 /* far above what can be right; its digits are not added up beyond */
+    };
+    /* Where sums are kept in more than double precision they are rounded twice. */
+    if (FLT_EVAL_METHOD != 0)
+        return false;
+
+    /* Read the digits; digits counts those from the first one that is not 0. */
+    const char *s = string;
+    bool isNegative = *s == '-';
+    s += isNegative || *s == '+';
+    if (s[0] == '0' && (s[1] == 'x' || s[1] == 'X'))
+        return false;
+    const char *start = s;
+    uint64_t integer = 0;
+    int digits = 0;
+    for (; *s >= '0' && *s <= '9' && digits <= MOST_DIGITS; s++) {
+        integer = 10 * integer + (uint64_t)(*s - '0');
+        digits += digits > 0 || integer > 0;
+    }
+    bool anyDigit = s > start;
+    int exponent = 0;
+    if (*s == '.') {
+        const char *fraction = ++s;
+        for (; *s >= '0' && *s <= '9' && digits <= MOST_DIGITS; s++) {
+            integer = 10 * integer + (uint64_t)(*s - '0');
+            digits += digits > 0 || integer > 0;
+        }
+        if (s - fraction > MOST_EXPONENT)
+            return false;
+        anyDigit = anyDigit || s > fraction;
+        exponent = -(int)(s - fraction);
+    }
+    if (!anyDigit || digits > MOST_DIGITS || integer > (UINT64_C(1) << 53))
+        return false;
+
+    /* Read the exponent; an e without digits is not part of the number. */
+    if (*s == 'e' || *s == 'E') {
+        const char *e = s + 1;
+        bool isBelow = *e == '-';
+        e += isBelow || *e == '+';
+        int given = 0;
+        bool isExponent = *e >= '0' && *e <= '9';
+        for (; *e >= '0' && *e <= '9'; e++)
+            given = given < MOST_EXPONENT ? 10 * given + (*e - '0') : given;
+        if (isExponent) {
+            exponent += isBelow ? -given : given;
+            s = e;
+        }
+    }
+    if (exponent < -LARGEST_POWER || exponent > LARGEST_POWER)
+        return false;
+    double magnitude = (double)integer;
+    magnitude = exponent < 0 ? magnitude / powers[-exponent] : magnitude * powers[exponent];
+    *value = isNegative ? -magnitude : magnitude;
+    *end = s;
+    return true;
+}
+
 double parseDouble(const char *string, char **end)
 {
+    double value;
+    const char *behind;
+    if (parseShortDouble(string, &behind, &value)) {
+        if (end != NULL)
+            *end = (char *)(uintptr_t)behind;
+        return value;
+    }
     pthread_once(&cLocaleOnce, makeCLocale);
     return cLocale != (locale_t)0 ? strtod_l(string, end, cLocale) : strtod(string, end);
 }

@@ -51,4 +51,9 @@ char *formatFloat(char buffer[NUMBER_TEXT_SIZE], float value);
  * to string where there is none. Out of range gives +-HUGE_VAL or a value near 0, as strtod. */
 double parseDouble(const char *string, char **end);
 
+/* Read a decimal number, [+-] digits [. digits] [e [+-] digits] with at least one digit before the e, where
+ * that is quick: up to 2^53 in its digits, and powers of ten up to 22. The result is parseDouble's. False,
+ * with nothing stored, for all that is longer or no such number. */
+bool parseShortDouble(const char *string, const char **end, double *value);
+
 #endif

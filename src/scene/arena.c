@@ -1,6 +1,7 @@
 /* arena.c - memory that is given back all at once; see arena.h. */
 #include "scene/arena.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@ struct ArenaBlock {
 };
 
 enum {
-    BLOCK_SIZE = 16 * 1024,
+    BLOCK_SIZE = 64 * 1024,
     ALIGNMENT = sizeof(double)
 };
 
@@ -24,9 +25,12 @@ void *arenaAllocate(Arena *arena, size_t size)
     ArenaBlock *block = arena->newest;
     if (block == NULL || block->size - block->used < size) {
         size_t blockSize = size > BLOCK_SIZE ? size : BLOCK_SIZE;
-        block = malloc(sizeof *block + blockSize);
+        bool useSpare = blockSize == BLOCK_SIZE && arena->spare != NULL;
+        block = useSpare ? arena->spare : malloc(sizeof *block + blockSize);
         if (block == NULL)
             return NULL;
+        if (useSpare)
+            arena->spare = NULL;
         *block = (ArenaBlock){.older = arena->newest, .size = blockSize};
         arena->newest = block;
     }
@@ -53,9 +57,12 @@ ArenaMark arenaMark(const Arena *arena)
 void arenaRewind(Arena *arena, ArenaMark mark)
 {
     while (arena->newest != mark.block) {
-        ArenaBlock *older = arena->newest->older;
-        free(arena->newest);
-        arena->newest = older;
+        ArenaBlock *block = arena->newest;
+        arena->newest = block->older;
+        if (arena->spare == NULL && block->size == BLOCK_SIZE)
+            arena->spare = block;
+        else
+            free(block);
     }
     if (mark.block != NULL)
         mark.block->used = mark.used;
@@ -64,4 +71,6 @@ void arenaRewind(Arena *arena, ArenaMark mark)
 void arenaFree(Arena *arena)
 {
     arenaRewind(arena, (ArenaMark){0});
+    free(arena->spare);
+    arena->spare = NULL;
 }

@@ -14,6 +14,7 @@ typedef struct ArenaBlock ArenaBlock;
 /* {0} is an empty arena. */
 typedef struct Arena {
     ArenaBlock *newest;
+    ArenaBlock *spare; /* one that was given back, for the next time; or NULL */
 } Arena;
 
 /* A moment in the life of an arena. */
@@ -30,7 +31,7 @@ char *arenaCopy(Arena *arena, const char *bytes, size_t length);
 
 ArenaMark arenaMark(const Arena *arena);
 
-/* Give back all that was allocated since the mark was taken. */
+/* Give back all that was allocated since the mark was taken; {0} marks the beginning. */
 void arenaRewind(Arena *arena, ArenaMark mark);
 
 void arenaFree(Arena *arena);

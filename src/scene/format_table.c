@@ -352,6 +352,7 @@ static const FormatKey spheresKeys[] = {
     {"file", FORMAT_FILE, offsetof(ObjectValues, file), .optional = true, .excludes = "data", .otherwise = "`data` counts",
      .help = "a text file with four numbers a line, x y z r; its path is relative to the scene file"},
 };
+const FormatKey *const rowsFormatKey = &spheresKeys[0];
 static const FormatMapping spheresFormat = {
     "spheres", "many spheres with one material", OBJECT(spheresKeys, finishSpheres), .enter = enterSpheres};
 

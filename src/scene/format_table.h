@@ -111,6 +111,9 @@ enum {
 /* The whole format: the mapping that a scene file is. */
 extern const FormatMapping sceneFormat;
 
+/* The key of many spheres whose value is their rows. */
+extern const FormatKey *const rowsFormatKey;
+
 /* The range of a colour's components, and of a scene's numbers without one. */
 extern const FormatRange colorRange;
 extern const FormatRange anyRange;

@@ -139,7 +139,7 @@ static Status loadText(const char *path, const char *text, size_t length, Scene 
     } else {
         YamlReader yaml;
         GivenKeys given;
-        openYaml(&yaml, &source, &found);
+        openYaml(&yaml, &source, &found, (RowFormat){rowsFormatKey->name, takeSphereRow});
         beginMapping(&sceneFormat, (Place){1, 1, 1}, &given, scene);
         readRoot(&reader, &yaml, &given);
         if (!mustStop(&reader))

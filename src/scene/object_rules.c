@@ -1,4 +1,5 @@
 /* object_rules.c - rules of the objects' keys, and the objects built from them; see format_rules.h. */
+#include "base/cancel.h"
 #include "scene/format_rules.h"
 #include "scene/read_values.h"
 #include "scene/reader.h"
@@ -170,10 +171,40 @@ void finishMesh(SceneReader *reader, GivenKeys *given, void *values, void *targe
     addReadObject(reader, given, values, (Object){.kind = SHAPE_MESH, .mesh = mesh});
 }
 
-static void addListed(SceneReader *reader, Place place, Vector3D center, double radius)
+enum {
+    CANCEL_POLL_SPHERES = 4096
+};
+
+/* The same as mustStop, with a look now and then at whether the user asked. */
+static bool mustStopAt(SceneReader *reader, size_t number)
 {
-    Sphere sphere = createSphere(center, radius, defaultMaterial());
-    addInnerObject(reader, place, (Object){.kind = SHAPE_SPHERE, .sphere = sphere});
+    if (number % CANCEL_POLL_SPHERES == 0 && cancelRequested())
+        reader->interrupted = true;
+    return mustStop(reader);
+}
+
+static void addListed(SceneReader *reader, Object *sphere, Place place, const double numbers[4])
+{
+    sphere->sphere =
+        createSphere(createVector(numbers[0], numbers[1], numbers[2]), numbers[3], sphere->material);
+    addInnerObject(reader, place, sphere);
+}
+
+/* Add the spheres of `data`. */
+static void addRows(SceneReader *reader, Object *sphere, const YamlNode *list)
+{
+    size_t number = 0;
+    for (const YamlNode *item = list->first; item != NULL && !mustStopAt(reader, number); item = item->next) {
+        double numbers[4];
+        number++;
+        if (item->kind != NODE_ROWS) {
+            if (readSphereRow(reader, rowsFormatKey, item, numbers))
+                addListed(reader, sphere, item->place, numbers);
+            continue;
+        }
+        for (size_t i = 0; i < item->count && !mustStopAt(reader, number); i++, number++)
+            addListed(reader, sphere, (Place){item->rows[i].line, 1, 1}, item->rows[i].numbers);
+    }
 }
 
 void finishSpheres(SceneReader *reader, GivenKeys *given, void *values, void *target)
@@ -184,18 +215,19 @@ void finishSpheres(SceneReader *reader, GivenKeys *given, void *values, void *ta
         given->keys[findFormatKey(given->format, "file", 4)] == NULL && !given->anyUnknown)
         reportError(reader, given->place, "add data: [[x, y, z, r], ...] or file: spheres.txt",
                     "these spheres have neither 'data' nor 'file'");
+    Object sphere = {.kind = SHAPE_SPHERE};
+    handDown(reader, &sphere);
     if (isGiven(given, "data")) {
-        const FormatKey *key = formatKey(given->format, findFormatKey(given->format, "data", 4));
-        for (const YamlNode *row = read->rows->first; row != NULL && !mustStop(reader); row = row->next) {
-            double numbers[4];
-            if (readSphereRow(reader, key, row, numbers))
-                addListed(reader, row->place, createVector(numbers[0], numbers[1], numbers[2]), numbers[3]);
-        }
+        reserveInScope(reader, read->rows->count);
+        addRows(reader, &sphere, read->rows);
     } else if (isGiven(given, "file")) {
         size_t count = 0;
         const ListedSphere *listed = loadSpheres(reader, placeOfKey(given, "file"), read->file, &count);
-        for (size_t i = 0; listed != NULL && i < count && !mustStop(reader); i++)
-            addListed(reader, given->place, listed[i].center, listed[i].radius);
+        reserveInScope(reader, count);
+        for (size_t i = 0; listed != NULL && i < count && !mustStopAt(reader, i); i++) {
+            Vector3D c = listed[i].center;
+            addListed(reader, &sphere, given->place, (double[]){c.x, c.y, c.z, listed[i].radius});
+        }
     }
     closeScope(reader, given);
 }

@@ -1,6 +1,7 @@
 /* object_scopes.c - where an object that was read goes; see object_scopes.h. */
 #include "scene/object_scopes.h"
 
+#include "base/cancel.h"
 #include "scene/format_rules.h"
 #include "scene/reader.h"
 
@@ -47,6 +48,16 @@ static const Transform *transformInScope(SceneReader *reader, const GivenKeys *g
 
 static void addUse(SceneReader *reader, MaterialUse use)
 {
+    /* Let the use before go on where it is the same one: a million spheres name their material in one place.
+     */
+    MaterialUse *last = reader->useCount > 0 ? &reader->uses[reader->useCount - 1] : NULL;
+    if (last != NULL && last->leaf != NAME_NONE && last->leaf + last->leafCount == use.leaf &&
+        last->place.line == use.place.line && last->place.column == use.place.column &&
+        last->leafCount < UINT32_MAX) {
+        last->leafCount++;
+        return;
+    }
+    use.leafCount = 1;
     MaterialUse *uses =
         makeReaderRoom(reader, reader->uses, reader->useCount, &reader->useCapacity, sizeof *uses);
     if (uses == NULL)
@@ -63,42 +74,46 @@ void dropReadObject(SceneReader *reader)
     }
 }
 
-/* The material of the leaf about to be added, if it has none of its own: that of the nearest scope that has
- * one, else the default material. */
-static Material inheritMaterial(SceneReader *reader)
+/* The material of a leaf that has none of its own: that of the nearest scope that has one, else the default
+ * material. */
+static Material inheritedMaterial(const SceneReader *reader)
 {
     const ObjectScope *scope = reader->scope;
-    if (scope == NULL || !scope->hasMaterial)
-        return defaultMaterial();
+    return scope != NULL && scope->hasMaterial ? scope->material : defaultMaterial();
+}
+
+/* The leaf about to be added uses that material. */
+static void noteInheritedUse(SceneReader *reader)
+{
+    const ObjectScope *scope = reader->scope;
+    if (scope == NULL || !scope->hasMaterial || scope->materialUse.name == NAME_NONE)
+        return;
     MaterialUse use = scope->materialUse;
-    if (use.name != NAME_NONE) {
-        use.leaf = reader->leafCount;
-        addUse(reader, use);
-    }
-    return scope->material;
+    use.leaf = reader->leafCount;
+    addUse(reader, use);
 }
 
 /* ---- Adding ---- */
 
 /* Put an object into the solid that is being read, else into the scene. */
-static void addObject(SceneReader *reader, Object object)
+static void addObject(SceneReader *reader, Object *object)
 {
     ObjectScope *scope = reader->scope;
     if (scope == NULL || !scope->isSolid) {
-        if (!addObjectToScene(reader->scene, object)) {
+        if (!addObjectToScene(reader->scene, *object)) {
             reader->outOfMemory = true;
-            releaseObject(&object);
+            releaseObject(object);
         }
         return;
     }
     Object *parts =
         makeReaderRoom(reader, scope->parts, scope->partCount, &scope->partCapacity, sizeof *parts);
     if (parts == NULL) {
-        releaseObject(&object);
+        releaseObject(object);
         return;
     }
     scope->parts = parts;
-    parts[scope->partCount++] = object;
+    parts[scope->partCount++] = *object;
 }
 
 /* What to do about a part that has no inside. */
@@ -112,12 +127,12 @@ static const char *insideHint(const Object *object)
 }
 
 /* name: its kind in the file. */
-static void addLeaf(SceneReader *reader, Place place, const char *name, Object object)
+static void addLeaf(SceneReader *reader, Place place, const char *name, Object *object)
 {
     const ObjectScope *scope = reader->scope;
-    object.line = place.line;
-    if (scope != NULL && scope->isSolid && !objectShape(&object)->hasInside(&object))
-        reportError(reader, place, insideHint(&object),
+    object->line = place.line;
+    if (scope != NULL && scope->isSolid && !objectShape(object)->hasInside(object))
+        reportError(reader, place, insideHint(object),
                     "this %s has no inside, so it cannot be a part of a solid, here of the %s", name,
                     scope->solidName);
     addObject(reader, object);
@@ -129,22 +144,34 @@ void addReadObject(SceneReader *reader, const GivenKeys *given, const ObjectValu
     object.noShadow = !values->castsShadow || (reader->scope != NULL && reader->scope->noShadow);
     object.transform = transformInScope(reader, given, &values->transform);
     if (!isGiven(given, "material")) {
-        object.material = inheritMaterial(reader);
+        object.material = inheritedMaterial(reader);
+        noteInheritedUse(reader);
     } else {
         object.material = values->object.material;
         reader->pendingUse.leaf = reader->leafCount;
         if (reader->pendingUse.name != NAME_NONE)
             addUse(reader, reader->pendingUse);
     }
-    addLeaf(reader, given->place, given->format->name, object);
+    addLeaf(reader, given->place, given->format->name, &object);
 }
 
-void addInnerObject(SceneReader *reader, Place place, Object object)
+void handDown(const SceneReader *reader, Object *object)
 {
-    object.noShadow = reader->scope->noShadow;
-    object.transform = reader->scope->transform;
-    object.material = inheritMaterial(reader);
-    addLeaf(reader, place, objectShape(&object)->name, object);
+    object->noShadow = reader->scope->noShadow;
+    object->transform = reader->scope->transform;
+    object->material = inheritedMaterial(reader);
+}
+
+void reserveInScope(SceneReader *reader, size_t count)
+{
+    if (!reader->scope->isSolid && !reserveObjectsInScene(reader->scene, count))
+        reader->outOfMemory = true;
+}
+
+void addInnerObject(SceneReader *reader, Place place, Object *object)
+{
+    noteInheritedUse(reader);
+    addLeaf(reader, place, objectShape(object)->name, object);
 }
 
 /* ---- Scopes ---- */
@@ -201,7 +228,7 @@ void closeScope(SceneReader *reader, const GivenKeys *given)
             places[reader->solidCount++] = given->place;
         }
     }
-    addObject(reader, solid);
+    addObject(reader, &solid);
 }
 
 /* ---- When all was read ---- */
@@ -224,8 +251,11 @@ static void walkObject(LeafWalk *walk, Object *object)
     }
     while (walk->use < reader->useCount && reader->uses[walk->use].leaf == NAME_NONE)
         walk->use++;
-    if (walk->use < reader->useCount && reader->uses[walk->use].leaf == walk->leaf)
-        object->material = reader->materials[reader->uses[walk->use++].name].material;
+    const MaterialUse *use = walk->use < reader->useCount ? &reader->uses[walk->use] : NULL;
+    if (use != NULL && walk->leaf >= use->leaf) {
+        object->material = reader->materials[use->name].material;
+        walk->use += walk->leaf + 1 == use->leaf + use->leafCount;
+    }
     walk->leaf++;
 
     const Material *material = &object->material;
@@ -260,8 +290,12 @@ void finishObjects(SceneReader *reader)
     /* With errors objects were left out, and the scene is of no use. */
     if (reader->diagnostics->errors > 0 || reader->outOfMemory)
         return;
+    enum {
+        CANCEL_POLL_OBJECTS = 65536
+    };
     LeafWalk walk = {.reader = reader};
-    for (size_t i = 0; i < reader->scene->objectCount; i++) {
+    for (size_t i = 0; i < reader->scene->objectCount && !reader->interrupted; i++) {
+        reader->interrupted = i % CANCEL_POLL_OBJECTS == 0 && cancelRequested();
         Object *object = &reader->scene->objects[i];
         walk.glass = walk.other = NULL;
         walkObject(&walk, object);

@@ -16,6 +16,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 struct GivenKeys;
 struct ObjectValues;
@@ -23,9 +24,10 @@ struct SceneReader;
 
 /* A use of a material by the number of its name: materials may be defined after their use. */
 typedef struct MaterialUse {
-    size_t leaf; /* who uses it; NAME_NONE: nobody, but it must be defined */
+    size_t leaf; /* the first that uses it; NAME_NONE: nobody, but it must be defined */
     size_t name; /* NAME_NONE: no name */
     Place place;
+    uint32_t leafCount; /* how many one after the other do, at least 1 */
 } MaterialUse;
 
 typedef struct ObjectScope {
@@ -56,8 +58,11 @@ void closeScope(struct SceneReader *reader, const struct GivenKeys *given);
 void addReadObject(struct SceneReader *reader, const struct GivenKeys *given,
                    const struct ObjectValues *values, Object object);
 
-/* The same for an object without keys of its own, inside a scope. */
-void addInnerObject(struct SceneReader *reader, Place place, Object object);
+/* For objects without keys of their own, inside a scope: give one the material, transform and shadow that the
+ * scopes hand down, make room for count of them, and put each where it goes. */
+void handDown(const struct SceneReader *reader, Object *object);
+void reserveInScope(struct SceneReader *reader, size_t count);
+void addInnerObject(struct SceneReader *reader, Place place, Object *object);
 
 /* In place of addReadObject for an object with an error: its material must be defined all the same. */
 void dropReadObject(struct SceneReader *reader);

@@ -106,17 +106,23 @@ static ValueName nameValue(const FormatKey *key, const char *component)
 
 /* ---- Numbers ---- */
 
-/* Read a number of the key or, with component not NULL, of its list. largest: what the type that stores it
- * can hold. */
-static bool readNumber(SceneReader *reader, const FormatKey *key, const char *component,
-                       const FormatRange *range, double largest, Place place, const YamlNode *value,
-                       double *number)
+/* Whether the number is one that the key can have; largest: what the type that stores it can hold. */
+static bool isRightNumber(const FormatKey *key, const FormatRange *range, double largest,
+                          const ScalarValue *scalar)
+{
+    bool hasType =
+        scalar->type == SCALAR_INTEGER || (scalar->type == SCALAR_FLOAT && key->type != FORMAT_INTEGER);
+    return hasType && isfinite(scalar->number) && fabs(scalar->number) <= largest &&
+           isInFormatRange(range, scalar->number);
+}
+
+/* Report what is wrong with the number. */
+static void reportWrongNumber(SceneReader *reader, const FormatKey *key, const char *component,
+                              const FormatRange *range, double largest, Place place, const YamlNode *value,
+                              const ScalarValue *scalar)
 {
     ValueName name = nameValue(key, component);
-    ScalarValue scalar = {.type = SCALAR_TEXT};
-    if (value->kind == NODE_SCALAR)
-        scalar = readScalar(value->text, value->count, value->plain);
-    bool isNumber = scalar.type == SCALAR_INTEGER || scalar.type == SCALAR_FLOAT;
+    bool isNumber = scalar->type == SCALAR_INTEGER || scalar->type == SCALAR_FLOAT;
     bool wantsInteger = key->type == FORMAT_INTEGER;
     Text message = {0};
     const char *hint = NULL;
@@ -128,7 +134,7 @@ static bool readNumber(SceneReader *reader, const FormatKey *key, const char *co
         textAppend(&message, ", but is ");
         textAppendNode(&message, value);
         hint = numberHint(value);
-    } else if (scalar.overflow || (isfinite(scalar.number) && fabs(scalar.number) > largest)) {
+    } else if (scalar->overflow || (isfinite(scalar->number) && fabs(scalar->number) > largest)) {
         textAppendFormat(&message, "%s is too large: %s is beyond ", name.text,
                          quoteBytes(value->text, value->count).text);
         textAppend(&message, largest < DBL_MAX ? "3.4e38" : "1.8e308");
@@ -136,23 +142,34 @@ static bool readNumber(SceneReader *reader, const FormatKey *key, const char *co
             textAppend(&message, "; it must be ");
             textAppendRange(&message, range);
         }
-    } else if (!isfinite(scalar.number)) {
+    } else if (!isfinite(scalar->number)) {
         textAppendFormat(&message, "%s must be an ordinary number, but is %s", name.text, value->text);
-    } else if (wantsInteger && scalar.type != SCALAR_INTEGER) {
+    } else if (wantsInteger && scalar->type != SCALAR_INTEGER) {
         textAppendFormat(&message, "%s needs a whole number, but is %s", name.text,
                          quoteBytes(value->text, value->count).text);
         hint = "write it without a decimal point";
-    } else if (!isInFormatRange(range, scalar.number)) {
+    } else {
         textAppendFormat(&message, "%s must be ", name.text);
         textAppendRange(&message, range);
         textAppendFormat(&message, ", but is %s", quoteBytes(value->text, value->count).text);
     }
-    bool right = message.length == 0;
+    reportError(reader, place, hint, "%s", textString(&message));
+    textFree(&message);
+}
+
+/* Read a number of the key or, with component not NULL, of its list. */
+static bool readNumber(SceneReader *reader, const FormatKey *key, const char *component,
+                       const FormatRange *range, double largest, Place place, const YamlNode *value,
+                       double *number)
+{
+    ScalarValue scalar = {.type = SCALAR_TEXT};
+    if (value->kind == NODE_SCALAR)
+        scalar = readScalar(value->text, value->count, value->plain);
+    bool right = isRightNumber(key, range, largest, &scalar);
     if (right)
         *number = scalar.number;
     else
-        reportError(reader, place, hint, "%s", message.data);
-    textFree(&message);
+        reportWrongNumber(reader, key, component, range, largest, place, value, &scalar);
     return right;
 }
 
@@ -255,6 +272,20 @@ bool readSphereRow(SceneReader *reader, const FormatKey *key, const YamlNode *ro
         return false;
     }
     return true;
+}
+
+bool takeSphereRow(const YamlNode *row, double numbers[4])
+{
+    const YamlNode *item = row->first;
+    for (size_t i = 0; i < 4; i++, item = item->next) {
+        if (item->kind != NODE_SCALAR)
+            return false;
+        ScalarValue scalar = readScalar(item->text, item->count, item->plain);
+        if ((scalar.type != SCALAR_INTEGER && scalar.type != SCALAR_FLOAT) || !isfinite(scalar.number))
+            return false;
+        numbers[i] = scalar.number;
+    }
+    return isInFormatRange(&rowsFormatKey->range, numbers[3]);
 }
 
 static bool readColor(SceneReader *reader, const FormatKey *key, Place place, const YamlNode *value,

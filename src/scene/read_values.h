@@ -16,6 +16,10 @@ bool readSimpleValue(SceneReader *reader, const FormatKey *key, Place place, con
 /* Read one sphere [x, y, z, r] of a list of them; key: of the list. */
 bool readSphereRow(SceneReader *reader, const FormatKey *key, const YamlNode *row, double numbers[4]);
 
+/* The same for a row that is right and needs no more than its numbers: false, with nothing reported, where
+ * readSphereRow is to read it. */
+bool takeSphereRow(const YamlNode *row, double numbers[4]);
+
 /* Store the key's default among the values of its mapping. */
 void storeDefault(const FormatKey *key, void *values);
 

@@ -210,6 +210,30 @@ static bool isUtf16(const SourceText *source)
     return source->length >= 2 && ((u[0] == 0xFE && u[1] == 0xFF) || (u[0] == 0xFF && u[1] == 0xFE));
 }
 
+/* The first of the bytes that is neither a printable character of ASCII nor LF; eight at a time. */
+static const char *skipPlain(const char *s, const char *end)
+{
+    const uint64_t ones = UINT64_MAX / 255, highs = ones * 0x80, lows = ~highs;
+    while (end - s >= 8) {
+        /* Set the highest bit of each byte that is 0x80 or above, that borrows when 0x20 is taken from it, or
+         * that 1 makes 0x80. A borrow or carry can only set too many bits, and then the bytes are looked at
+         * one by one. */
+        uint64_t x;
+        memcpy(&x, s, sizeof x);
+        uint64_t isOdd = (x | (x - ones * 0x20) | (x + ones)) & highs;
+
+        /* Leave out the bytes that are LF: those, and only those, are 0 when LF is taken out of them. */
+        uint64_t rest = x ^ (ones * '\n');
+        uint64_t isFeed = ~(((rest & lows) + lows) | rest) & highs;
+        if ((isOdd & ~isFeed) != 0)
+            break;
+        s += 8;
+    }
+    while (s < end && ((*s >= 0x20 && *s <= 0x7E) || *s == '\n'))
+        s++;
+    return s;
+}
+
 bool checkEncoding(const SourceText *source, EncodingFault *fault)
 {
     fault->place = (Place){1, 1, 1};
@@ -221,11 +245,10 @@ bool checkEncoding(const SourceText *source, EncodingFault *fault)
     }
     const char *end = source->text + source->length;
     for (const char *s = source->text; s < end;) {
-        /* Skip what is plain quickly. */
-        if (*s >= 0x20 && *s <= 0x7E) {
-            s++;
-            continue;
-        }
+        /* Skip what is plain quickly, and line ends, which most files have one of every few bytes. */
+        s = skipPlain(s, end);
+        if (s == end)
+            break;
         size_t size;
         uint32_t character = decodeUtf8(s, end, &size);
         if (character != UINT32_MAX && isAllowed(character)) {

@@ -78,6 +78,14 @@ static bool isDecimal(const char *s, bool *isInteger)
     return *s == '\0';
 }
 
+/* Whether a decimal number has neither point nor exponent. */
+static bool isWhole(const char *s, const char *end)
+{
+    while (s < end && *s != '.' && *s != 'e' && *s != 'E')
+        s++;
+    return s == end;
+}
+
 ScalarValue readScalar(const char *text, size_t length, bool plain)
 {
     static const char *const nulls[] = {"", "~", "null", "Null", "NULL", NULL};
@@ -86,11 +94,19 @@ ScalarValue readScalar(const char *text, size_t length, bool plain)
     static const char *const infinities[] = {".inf", ".Inf", ".INF", NULL};
     static const char *const notNumbers[] = {".nan", ".NaN", ".NAN", NULL};
     ScalarValue value = {.type = SCALAR_TEXT};
-    if (!plain || strlen(text) != length)
+    if (!plain)
         return value;
 
-    /* Numbers first: they are what a scene is full of. */
+    /* Numbers first: they are what a scene is full of, and most are short. */
+    const char *end;
+    if (parseShortDouble(text, &end, &value.number) && end == text + length) {
+        value.type = isWhole(text, end) ? SCALAR_INTEGER : SCALAR_FLOAT;
+        return value;
+    }
+    value.number = 0;
     bool isInteger;
+    if (strlen(text) != length)
+        return value;
     if (isDecimal(text, &isInteger)) {
         value.type = isInteger ? SCALAR_INTEGER : SCALAR_FLOAT;
         value.number = parseDouble(text, NULL);

@@ -10,15 +10,6 @@
 
 /* ---- Events ---- */
 
-static Place placeOfEvent(const yaml_event_t *event)
-{
-    const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
-    bool oneLine = start->line == end->line && end->column > start->column;
-    bool isCollection = event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_MAPPING_START_EVENT;
-    int width = oneLine && !isCollection ? (int)(end->column - start->column) : 1;
-    return (Place){(int)start->line + 1, (int)start->column + 1, width};
-}
-
 /* Report an error after which nothing more can be read. */
 static void fail(YamlReader *reader, Place place, const char *hint, const char *message)
 {
@@ -35,13 +26,12 @@ static void failOutOfMemory(YamlReader *reader)
 /* Remember the last text without quotes. */
 static void noteText(YamlReader *reader)
 {
-    const yaml_event_t *event = &reader->event;
-    reader->syntax.afterText = event->type == YAML_SCALAR_EVENT && event->data.scalar.length > 0 &&
-                               event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    const YamlEvent *event = reader->event;
+    reader->syntax.afterText = event->plain && event->length > 0;
     if (!reader->syntax.afterText)
         return;
-    reader->syntax.text = placeOfEvent(event);
-    reader->syntax.textEndLine = (int)event->end_mark.line + 1;
+    reader->syntax.text = event->place;
+    reader->syntax.textEndLine = event->endLine;
 }
 
 static void reportBrokenYaml(YamlReader *reader)
@@ -50,28 +40,30 @@ static void reportBrokenYaml(YamlReader *reader)
     context.inBrackets = reader->depth > 0 && reader->inBrackets[reader->depth - 1];
     if (reader->depth > 0)
         context.opening = reader->openings[reader->depth - 1];
-    reportSyntaxError(&reader->parser, &context, reader->source, reader->diagnostics);
+    reportSyntaxError(brokenYamlParser(reader->events), &context, reader->source, reader->diagnostics);
 }
 
 /* Make reader->event the next event; false when there is none. */
 static bool pullEvent(YamlReader *reader)
 {
+    static const YamlEvent nothing = {.type = YAML_NO_EVENT};
     if (reader->failed)
         return false;
-    if (reader->hasEvent)
+    if (reader->event != NULL)
         return true;
-    if (cancelRequested()) {
-        reader->interrupted = true;
-        reader->failed = true;
-        return false;
-    }
-    if (yaml_parser_parse(&reader->parser, &reader->event)) {
-        reader->hasEvent = true;
+    EventsEnd end = EVENTS_INTERRUPTED;
+    if (!cancelRequested())
+        reader->event = nextYamlEvent(reader->events, &end);
+    if (end == EVENTS_COMPLETE)
+        reader->event = &nothing;
+    if (reader->event != NULL) {
         noteText(reader);
         return true;
     }
     reader->failed = true;
-    if (reader->parser.error == YAML_MEMORY_ERROR)
+    if (end == EVENTS_INTERRUPTED)
+        reader->interrupted = true;
+    else if (end == EVENTS_OUT_OF_MEMORY)
         reader->outOfMemory = true;
     else
         reportBrokenYaml(reader);
@@ -80,9 +72,7 @@ static bool pullEvent(YamlReader *reader)
 
 static void dropEvent(YamlReader *reader)
 {
-    if (reader->hasEvent)
-        yaml_event_delete(&reader->event);
-    reader->hasEvent = false;
+    reader->event = NULL;
 }
 
 /* libyaml compares each %TAG directive with all before it. Tags are no part of a scene, so there is no need
@@ -104,29 +94,28 @@ static void refuseManyTagDirectives(YamlReader *reader)
              "tags and their %TAG directives have no meaning in a scene");
 }
 
-void openYaml(YamlReader *reader, SourceText *source, Diagnostics *diagnostics)
+void openYaml(YamlReader *reader, SourceText *source, Diagnostics *diagnostics, RowFormat rowFormat)
 {
-    *reader = (YamlReader){.source = source, .diagnostics = diagnostics};
-    if (!yaml_parser_initialize(&reader->parser)) {
+    *reader = (YamlReader){.source = source, .diagnostics = diagnostics, .rowFormat = rowFormat};
+    refuseManyTagDirectives(reader);
+    if (reader->failed)
+        return;
+    reader->events = openYamlEvents(source);
+    if (reader->events == NULL) {
         failOutOfMemory(reader);
         return;
     }
-    yaml_parser_set_input_string(&reader->parser, (const unsigned char *)source->text, source->length);
-    yaml_parser_set_encoding(&reader->parser, YAML_UTF8_ENCODING);
-
-    refuseManyTagDirectives(reader);
 
     /* Skip the start of the stream and of the document. */
     if (pullEvent(reader))
         dropEvent(reader);
-    if (pullEvent(reader) && reader->event.type == YAML_DOCUMENT_START_EVENT)
+    if (pullEvent(reader) && reader->event->type == YAML_DOCUMENT_START_EVENT)
         dropEvent(reader);
 }
 
 void closeYaml(YamlReader *reader)
 {
-    dropEvent(reader);
-    yaml_parser_delete(&reader->parser);
+    closeYamlEvents(reader->events);
     freeNameTable(&reader->anchorNames);
     free(reader->anchors);
     arenaFree(&reader->arena);
@@ -136,7 +125,7 @@ YamlNext peekYaml(YamlReader *reader)
 {
     if (!pullEvent(reader))
         return NEXT_FAILED;
-    switch (reader->event.type) {
+    switch (reader->event->type) {
     case YAML_SCALAR_EVENT:
         return NEXT_SCALAR;
     case YAML_ALIAS_EVENT:
@@ -152,32 +141,18 @@ YamlNext peekYaml(YamlReader *reader)
 
 /* ---- Anchors ---- */
 
-static const char *anchorOfEvent(const yaml_event_t *event)
-{
-    switch (event->type) {
-    case YAML_SCALAR_EVENT:
-        return (const char *)event->data.scalar.anchor;
-    case YAML_SEQUENCE_START_EVENT:
-        return (const char *)event->data.sequence_start.anchor;
-    case YAML_MAPPING_START_EVENT:
-        return (const char *)event->data.mapping_start.anchor;
-    default:
-        return NULL;
-    }
-}
-
 bool nextHasAnchor(const YamlReader *reader)
 {
-    return reader->hasEvent && anchorOfEvent(&reader->event) != NULL;
+    return reader->event != NULL && reader->event->anchor != NULL;
 }
 
 /* Note the anchor of the event, if it has one. Its number, or NAME_NONE. */
 static size_t defineAnchor(YamlReader *reader)
 {
-    const char *anchor = anchorOfEvent(&reader->event);
+    const char *anchor = reader->event->anchor;
     if (anchor == NULL)
         return NAME_NONE;
-    Place place = placeOfEvent(&reader->event);
+    Place place = reader->event->place;
     size_t known = findName(&reader->anchorNames, anchor, strlen(anchor));
     if (known != NAME_NONE) {
         char message[QUOTE_SIZE + 80];
@@ -208,7 +183,7 @@ static size_t defineAnchor(YamlReader *reader)
 /* Point an alias to what it stands for. */
 static void followAlias(YamlReader *reader, YamlNode *node)
 {
-    const char *anchor = (const char *)reader->event.data.alias.anchor;
+    const char *anchor = reader->event->anchor;
     size_t number = findName(&reader->anchorNames, anchor, strlen(anchor));
     char message[2 * QUOTE_SIZE + 120];
     Quote name = quoteBytes(anchor, strlen(anchor));
@@ -245,49 +220,39 @@ static void followAlias(YamlReader *reader, YamlNode *node)
 
 static void refuseTag(YamlReader *reader)
 {
-    const yaml_event_t *event = &reader->event;
-    const yaml_char_t *tag = NULL;
-    if (event->type == YAML_SCALAR_EVENT)
-        tag = event->data.scalar.tag;
-    else if (event->type == YAML_SEQUENCE_START_EVENT)
-        tag = event->data.sequence_start.tag;
-    else if (event->type == YAML_MAPPING_START_EVENT)
-        tag = event->data.mapping_start.tag;
-    if (tag == NULL)
+    const YamlEvent *event = reader->event;
+    if (event->tag == NULL)
         return;
     /* Show a core tag as it is usually written. */
     static const char core[] = "tag:yaml.org,2002:";
-    const char *text = (const char *)tag;
+    const char *text = event->tag;
     bool isCore = strncmp(text, core, sizeof core - 1) == 0;
     text += isCore ? sizeof core - 1 : 0;
     char message[QUOTE_SIZE + 80];
     snprintf(message, sizeof message, "the tag '%s%s' has no meaning in a scene", isCore ? "!!" : "",
              quoteBytes(text, strlen(text)).text);
-    addDiagnostic(reader->diagnostics, reader->source, SEVERITY_ERROR, placeOfEvent(event),
+    addDiagnostic(reader->diagnostics, reader->source, SEVERITY_ERROR, event->place,
                   "remove the word that begins with '!'", message);
 }
 
 /* Count one level more; false when there are too many. */
 static bool descend(YamlReader *reader)
 {
-    const yaml_event_t *event = &reader->event;
     if (reader->depth < YAML_MAX_DEPTH) {
-        reader->openings[reader->depth] = placeOfEvent(event);
-        reader->inBrackets[reader->depth] = event->type == YAML_SEQUENCE_START_EVENT
-                                                ? event->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE
-                                                : event->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE;
+        reader->openings[reader->depth] = reader->event->place;
+        reader->inBrackets[reader->depth] = reader->event->inBrackets;
         reader->depth++;
         return true;
     }
     char message[80];
     snprintf(message, sizeof message, "lists and mappings are nested deeper than %d levels", YAML_MAX_DEPTH);
-    fail(reader, placeOfEvent(&reader->event), "no scene needs this; is a bracket repeated?", message);
+    fail(reader, reader->event->place, "no scene needs this; is a bracket repeated?", message);
     return false;
 }
 
 void enterYaml(YamlReader *reader, Place *place)
 {
-    *place = placeOfEvent(&reader->event);
+    *place = reader->event->place;
     refuseTag(reader);
     defineAnchor(reader);
     reader->nodeCount++;
@@ -302,32 +267,92 @@ void leaveYaml(YamlReader *reader)
     reader->depth--;
 }
 
-static YamlNode *readNode(YamlReader *reader);
+static YamlNode *readNode(YamlReader *reader, bool mayBeRows);
 
-/* Read the children of a list or mapping, and its end. */
-static void readChildren(YamlReader *reader, YamlNode *node)
+/* Put a child behind the last one; newest is that one, or NULL. */
+static void appendChild(YamlNode *node, YamlNode *newest, YamlNode *child)
+{
+    if (newest == NULL)
+        node->first = child;
+    else
+        newest->next = child;
+}
+
+/* Count what is in a child. */
+static void countChild(YamlNode *node, uint64_t size, uint8_t height)
+{
+    node->count++;
+    node->size += size;
+    if (height >= node->height)
+        node->height = (uint8_t)(height + 1);
+}
+
+/* The newest child, where it is a block with room for a row, or a new block behind it; NULL when memory runs
+ * out. */
+static YamlNode *roomForRow(YamlReader *reader, YamlNode *list, YamlNode *newest, size_t *capacity)
+{
+    enum {
+        MOST_ROWS = 256 /* in a block */
+    };
+    if (newest != NULL && newest->kind == NODE_ROWS && newest->count < *capacity)
+        return newest;
+    *capacity = *capacity == 0 ? 4 : *capacity < MOST_ROWS ? 2 * *capacity : MOST_ROWS;
+    YamlNode *block = arenaAllocate(&reader->arena, sizeof *block);
+    YamlRow *rows = arenaAllocate(&reader->arena, *capacity * sizeof *rows);
+    if (block == NULL || rows == NULL) {
+        failOutOfMemory(reader);
+        return NULL;
+    }
+    *block = (YamlNode){.kind = NODE_ROWS, .rows = rows};
+    appendChild(list, newest, block);
+    return block;
+}
+
+/* Whether the key is the one behind which rows stand. */
+static bool isRowsKey(const YamlReader *reader, const YamlNode *key)
+{
+    return reader->rowFormat.key != NULL && key->kind == NODE_SCALAR &&
+           strcmp(key->text, reader->rowFormat.key) == 0;
+}
+
+/* Read the children of a list or mapping, and its end; areRows: of a list, its items may be rows. */
+static void readChildren(YamlReader *reader, YamlNode *node, bool areRows)
 {
     if (!descend(reader))
         return;
     dropEvent(reader);
-    YamlNode **last = &node->first;
+    YamlNode *newest = NULL;
+    size_t rowCapacity = 0;
     while (pullEvent(reader) && peekYaml(reader) != NEXT_END) {
-        YamlNode *child = readNode(reader);
+        bool isValue = node->kind == NODE_MAPPING && node->count % 2 == 1;
+        ArenaMark mark = arenaMark(&reader->arena);
+        size_t anchors = reader->anchorNames.count;
+        YamlNode *child = readNode(reader, isValue && isRowsKey(reader, newest));
         if (child == NULL)
             return;
-        *last = child;
-        last = &child->next;
-        node->count++;
-        node->size += child->size;
-        if (child->height >= node->height)
-            node->height = (uint8_t)(child->height + 1);
+        countChild(node, child->size, child->height);
+
+        /* Keep only the numbers of a row; what an alias may lead to stays as it is. */
+        YamlRow row = {.line = child->place.line};
+        if (areRows && child->kind == NODE_LIST && child->count == YAML_ROW_NUMBERS &&
+            reader->anchorNames.count == anchors && reader->rowFormat.take(child, row.numbers)) {
+            arenaRewind(&reader->arena, mark);
+            child = roomForRow(reader, node, newest, &rowCapacity);
+            if (child == NULL)
+                return;
+            child->rows[child->count++] = row;
+        } else {
+            appendChild(node, newest, child);
+        }
+        newest = child;
     }
     if (node->kind == NODE_MAPPING)
         node->count /= 2;
     leaveYaml(reader);
 }
 
-static YamlNode *readNode(YamlReader *reader)
+/* mayBeRows: where it is a list, its items may be rows. */
+static YamlNode *readNode(YamlReader *reader, bool mayBeRows)
 {
     YamlNext next = peekYaml(reader);
     if (next == NEXT_FAILED || next == NEXT_END)
@@ -337,7 +362,7 @@ static YamlNode *readNode(YamlReader *reader)
         failOutOfMemory(reader);
         return NULL;
     }
-    *node = (YamlNode){.size = 1, .place = placeOfEvent(&reader->event)};
+    *node = (YamlNode){.size = 1, .place = reader->event->place};
     reader->nodeCount++;
     if (next == NEXT_ALIAS) {
         node->kind = NODE_ALIAS;
@@ -350,16 +375,18 @@ static YamlNode *readNode(YamlReader *reader)
     size_t anchor = defineAnchor(reader);
     if (next == NEXT_SCALAR) {
         node->kind = NODE_SCALAR;
-        node->count = reader->event.data.scalar.length;
-        node->plain = reader->event.data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
-        node->text = arenaCopy(&reader->arena, (const char *)reader->event.data.scalar.value, node->count);
+        node->count = reader->event->length;
+        node->plain = reader->event->plain;
+        node->text = arenaCopy(&reader->arena, reader->event->text, node->count);
         if (node->text == NULL)
             failOutOfMemory(reader);
         dropEvent(reader);
     } else {
         node->kind = next == NEXT_LIST ? NODE_LIST : NODE_MAPPING;
         node->height = 1;
-        readChildren(reader, node);
+        reader->anchoredDepth += anchor != NAME_NONE;
+        readChildren(reader, node, mayBeRows && node->kind == NODE_LIST && reader->anchoredDepth == 0);
+        reader->anchoredDepth -= anchor != NAME_NONE;
     }
     if (anchor != NAME_NONE && !reader->failed)
         reader->anchors[anchor].node = node;
@@ -368,7 +395,7 @@ static YamlNode *readNode(YamlReader *reader)
 
 const YamlNode *readYamlNode(YamlReader *reader)
 {
-    return readNode(reader);
+    return readNode(reader, false);
 }
 
 void finishYaml(YamlReader *reader)
@@ -376,9 +403,9 @@ void finishYaml(YamlReader *reader)
     /* Drop the end of the document, then nothing may come but the end of the stream. */
     if (!pullEvent(reader))
         return;
-    if (reader->event.type == YAML_DOCUMENT_END_EVENT)
+    if (reader->event->type == YAML_DOCUMENT_END_EVENT)
         dropEvent(reader);
-    if (pullEvent(reader) && reader->event.type == YAML_DOCUMENT_START_EVENT)
-        fail(reader, placeOfEvent(&reader->event), "put each scene into a file of its own",
+    if (pullEvent(reader) && reader->event->type == YAML_DOCUMENT_START_EVENT)
+        fail(reader, reader->event->place, "put each scene into a file of its own",
              "a second document begins here; a file holds one scene");
 }

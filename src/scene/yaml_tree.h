@@ -16,12 +16,12 @@
 #include "scene/diagnostics.h"
 #include "scene/name_table.h"
 #include "scene/source_text.h"
+#include "scene/yaml_events.h"
 #include "scene/yaml_syntax.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <yaml.h>
 
 enum {
     YAML_MAX_DEPTH = 64,
@@ -36,8 +36,29 @@ typedef enum NodeKind {
     NODE_SCALAR,
     NODE_LIST,
     NODE_MAPPING,
-    NODE_ALIAS
+    NODE_ALIAS,
+    NODE_ROWS /* of a list: items that RowFormat took; only behind its key, and never behind an alias */
 } NodeKind;
+
+enum {
+    YAML_ROW_NUMBERS = 4
+};
+
+/* A list of numbers. */
+typedef struct YamlRow {
+    double numbers[YAML_ROW_NUMBERS];
+    int line; /* where it begins */
+} YamlRow;
+
+struct YamlNode;
+
+/* Lists that may come in millions, the items of the list behind a key. They are kept as their numbers, in a
+ * sixth of the memory, and without the places of these: only rows that no more is to be said of. */
+typedef struct RowFormat {
+    const char *key;
+    /* Store the numbers of a list of YAML_ROW_NUMBERS items if nothing is wrong with them. */
+    bool (*take)(const struct YamlNode *list, double numbers[YAML_ROW_NUMBERS]);
+} RowFormat;
 
 typedef struct YamlNode {
     struct YamlNode *next; /* in the same list or mapping */
@@ -45,8 +66,9 @@ typedef struct YamlNode {
         const char *text;              /* scalar: NUL-terminated */
         struct YamlNode *first;        /* list: the items; mapping: key, value, key, value ... */
         const struct YamlNode *target; /* alias: never an alias itself; NULL: undefined, already reported */
+        YamlRow *rows;
     };
-    size_t count;   /* scalar: bytes; list: items; mapping: pairs */
+    size_t count;   /* scalar: bytes; list: items; mapping: pairs; rows */
     uint64_t size;  /* nodes in it, itself and what aliases lead to included */
     Place place;    /* of a list or mapping: where it begins */
     uint8_t kind;   /* NodeKind */
@@ -64,9 +86,9 @@ typedef struct YamlReader {
     SourceText *source;
     Diagnostics *diagnostics;
     Arena arena; /* the nodes */
-    yaml_parser_t parser;
-    yaml_event_t event; /* the next one, when hasEvent */
-    bool hasEvent;
+    RowFormat rowFormat;
+    YamlEvents *events;
+    const YamlEvent *event; /* the next one, or NULL: not asked for yet */
     int depth;
     bool inBrackets[YAML_MAX_DEPTH]; /* of the lists and mappings being read, from the root */
     Place openings[YAML_MAX_DEPTH];
@@ -75,6 +97,7 @@ typedef struct YamlReader {
     NameTable anchorNames;
     YamlAnchor *anchors;
     size_t anchorCapacity;
+    int anchoredDepth; /* how many of the nodes being read have anchors */
 
     /* Nothing more can be read: an error that is in diagnostics, or one of the next two. */
     bool failed;
@@ -92,7 +115,7 @@ typedef enum YamlNext {
 } YamlNext;
 
 /* Begin at the document's root. source is checked by checkEncoding and outlives the reader. */
-void openYaml(YamlReader *reader, SourceText *source, Diagnostics *diagnostics);
+void openYaml(YamlReader *reader, SourceText *source, Diagnostics *diagnostics, RowFormat rowFormat);
 void closeYaml(YamlReader *reader);
 
 YamlNext peekYaml(YamlReader *reader);

@@ -117,8 +117,10 @@ Status wordToNumber(const Word *word, double largest, double *number)
     /* Let through only what decimal numbers are made of, not "nan", "inf" or "0x10". */
     char shown[SHOWN_WORD_SIZE];
     bool isDecimal = true;
-    for (size_t i = 0; i < word->length && isDecimal; i++)
-        isDecimal = word->start[i] != '\0' && strchr("0123456789+-.eE", word->start[i]) != NULL;
+    for (size_t i = 0; i < word->length && isDecimal; i++) {
+        char c = word->start[i];
+        isDecimal = (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
+    }
     char *end = NULL;
     double value = isDecimal ? parseDouble(word->start, &end) : 0;
     if (!isDecimal || end != word->start + word->length)
