@@ -43,7 +43,8 @@ WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Wno-psabi \
 
 # -fno-sanitize-recover: the first finding ends the program, so that no test passes over one.
 # -fno-omit-frame-pointer: whole stack traces in the reports.
-SANITIZERS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
+# ECLAIRAGE_CHECK_TREE: the fast engine looks at each tree that it made.
+SANITIZERS := $(if $(SANITIZE),-DECLAIRAGE_CHECK_TREE -fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 
 # The paths of the fast engine: `plain` is for every processor of the architecture, `avx2` is chosen when the
 # program runs where the processor has it. -O3: the loops over lanes become vector code.

@@ -2,7 +2,7 @@
 #include "colors.h"
 
 #include "base/cancel.h"
-#include "base/large_memory.h"
+#include "base/memory.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -10,7 +10,7 @@
 #include "engine/lanes/path.h"
 #include "engine/single_rays.h"
 
-#include "base/cancel.h"
+#include "base/memory.h"
 #include "base/threads.h"
 #include "shapes/mesh_build.h"
 
@@ -291,7 +291,10 @@ static void fillObjects(CompiledScene *compiled, uint32_t number, const BuildIte
 static void *allocateAligned(size_t count, size_t size)
 {
     size_t bytes = (count * size + 63) / 64 * 64;
-    return aligned_alloc(64, bytes > 0 ? bytes : 64);
+    void *array = aligned_alloc(64, bytes > 0 ? bytes : 64);
+    if (array != NULL)
+        useLargePages(array, bytes);
+    return array;
 }
 
 /* Give back what was reserved and not used; alignment is kept, as large arrays never move when they shrink.
@@ -546,7 +549,7 @@ Status compileScene(const Scene *scene, int threads, CompiledScene **compiled)
         freeCompiledScene(made);
         return status;
     }
-#ifndef NDEBUG
+#ifdef ECLAIRAGE_CHECK_TREE
     const char *fault = findBvhFault(made);
     if (fault != NULL) {
         freeCompiledScene(made);

@@ -174,7 +174,7 @@ static inline bool objectSkipsShadow(const CompiledScene *compiled, uint32_t obj
 }
 
 /* Find what is wrong with the tree, or NULL: a child out of its parent's box, a primitive absent or twice, a
- * depth beyond BVH_MAX_DEPTH. Debug builds stop on it after each compile. */
+ * depth beyond BVH_MAX_DEPTH. Sanitized builds look for it after each compile. */
 const char *findBvhFault(const CompiledScene *compiled);
 
 #endif

@@ -5,7 +5,7 @@
  */
 #include "image/image.h"
 
-#include "base/large_memory.h"
+#include "base/memory.h"
 #include "base/threads.h"
 #include "image/quantizer.h"
 
