@@ -134,6 +134,9 @@ $$(BUILD)/obj/src/engine/lanes/%.$(1).o: src/engine/lanes/%.c $$(BUILD)/flags
 endef
 $(foreach path,$(LANE_PATHS),$(eval $(call lane-rule,$(path))))
 
+# The building of its tree is loops over vectors too.
+$(BUILD)/obj/src/engine/bvh_build.o: OPTIMIZE = $(LANE_OPTIMIZE)
+
 # The report's page is assembled into this object, which the compiler's list of dependencies does not say.
 $(BUILD)/obj/compare/report_template.o: $(wildcard compare/report*.html compare/report*.css compare/report*.js)
 

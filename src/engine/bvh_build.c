@@ -101,6 +101,11 @@ static BinScale binScale(const Range *range)
     return scale;
 }
 
+static inline I4 binOf(const BinScale *scale, F4 middle)
+{
+    return __builtin_convertvector((middle - scale->low) * scale->binsPerUnit, I4);
+}
+
 static void fillBins(const BuildItem *items, const Range *range, const BinScale *scale, Bins *bins)
 {
     for (int axis = 0; axis < 3; axis++)
@@ -110,11 +115,12 @@ static void fillBins(const BuildItem *items, const Range *range, const BinScale 
             bins->counts[axis][b] = 0;
         }
     for (size_t i = range->first; i < range->end; i++) {
-        F4 place = (items[i].min + items[i].max - scale->low) * scale->binsPerUnit;
+        F4 min = items[i].min, max = items[i].max;
+        I4 place = binOf(scale, min + max);
         for (int axis = 0; axis < 3; axis++) {
-            int b = (int)place[axis];
-            bins->min[axis][b] = f4Min(bins->min[axis][b], items[i].min);
-            bins->max[axis][b] = f4Max(bins->max[axis][b], items[i].max);
+            int b = place[axis];
+            bins->min[axis][b] = f4Min(bins->min[axis][b], min);
+            bins->max[axis][b] = f4Max(bins->max[axis][b], max);
             bins->counts[axis][b]++;
         }
     }
@@ -174,19 +180,18 @@ static void partition(BuildItem *items, const BinScale *scale, Split split, cons
                       Range *high)
 {
     int axis = split.axis;
-    float from = scale->low[axis], perUnit = scale->binsPerUnit[axis];
     size_t i = low->first, j = high->end;
     for (;;) {
         for (; i < j; i++) {
             F4 middle = items[i].min + items[i].max;
-            if ((int)((middle[axis] - from) * perUnit) >= split.border)
+            if (binOf(scale, middle)[axis] >= split.border)
                 break;
             low->middleMin = f4Min(low->middleMin, middle);
             low->middleMax = f4Max(low->middleMax, middle);
         }
         for (; i < j; j--) {
             F4 middle = items[j - 1].min + items[j - 1].max;
-            if ((int)((middle[axis] - from) * perUnit) < split.border)
+            if (binOf(scale, middle)[axis] < split.border)
                 break;
             high->middleMin = f4Min(high->middleMin, middle);
             high->middleMax = f4Max(high->middleMax, middle);

@@ -7,19 +7,44 @@
 
 #include <stdatomic.h>
 
-/* The box of a primitive: min and max in lanes 0 to 2, and in min's lane 3 the bits of the primitive's
- * number. */
+/* The box of a primitive: min and max in lanes 0 to 2. Lane 3 has the bits of the primitive's number, as
+ * numbers from 1 to 2, with which arithmetic is as fast as with any other: a float that is no normal number
+ * is slow. */
 typedef struct BuildItem {
     F4 min, max;
 } BuildItem;
 
-static inline int32_t itemPrimitive(const BuildItem *item)
+enum {
+    ITEM_BITS = 23 /* of a number in one lane: those behind a float's point */
+};
+
+static inline float itemBits(uint32_t bits)
+{
+    union {
+        uint32_t bits;
+        float number;
+    } both = {bits | 0x3F800000};
+    return both.number;
+}
+
+static inline uint32_t bitsOfItem(float number)
 {
     union {
         float number;
-        int32_t primitive;
-    } both = {item->min[3]};
-    return both.primitive;
+        uint32_t bits;
+    } both = {number};
+    return both.bits & ((1u << ITEM_BITS) - 1);
+}
+
+static inline void setItemPrimitive(BuildItem *item, uint32_t primitive)
+{
+    item->min[3] = itemBits(primitive & ((1u << ITEM_BITS) - 1));
+    item->max[3] = itemBits(primitive >> ITEM_BITS);
+}
+
+static inline int32_t itemPrimitive(const BuildItem *item)
+{
+    return (int32_t)(bitsOfItem(item->min[3]) | bitsOfItem(item->max[3]) << ITEM_BITS);
 }
 
 /* Make block number `block` of up to 8 items. */

@@ -41,7 +41,8 @@ typedef enum Treatment {
 /* How many of each there are, and then where the next one goes. */
 typedef struct Tally {
     size_t spheres, triangles, boxed, planes, endless;
-    double largest; /* coordinate */
+    size_t transparent, shadowless; /* objects among them */
+    double largest;                 /* coordinate */
 } Tally;
 
 typedef struct Compiling {
@@ -50,7 +51,6 @@ typedef struct Compiling {
     Tally *tallies; /* of each chunk */
     size_t chunkCount;
     BuildItem *items; /* spheres, then triangles, then boxed objects */
-    bool hasSkipped;
 } Compiling;
 
 /* ---- What becomes of an object ---- */
@@ -82,6 +82,12 @@ static Treatment treatmentOf(const Object *object, Bounds *bounds)
     return object->kind == SHAPE_MESH ? TREAT_MESH : TREAT_BOXED;
 }
 
+/* In objectMaterial, until materials are numbered: whether an object has another one than that before it. */
+enum {
+    SAME_MATERIAL,
+    NEW_MATERIAL
+};
+
 static void tallyChunk(void *context, size_t number)
 {
     Compiling *compiling = context;
@@ -90,13 +96,18 @@ static void tallyChunk(void *context, size_t number)
         (number + 1) * CHUNK_SIZE < scene->objectCount ? (number + 1) * CHUNK_SIZE : scene->objectCount;
     Tally tally = {0};
     for (size_t i = number * CHUNK_SIZE; i < end; i++) {
+        const Object *object = &scene->objects[i];
+        bool isSame = i > 0 && memcmp(&object->material, &object[-1].material, sizeof object->material) == 0;
+        compiling->compiled->objectMaterial[i] = isSame ? SAME_MATERIAL : NEW_MATERIAL;
+        tally.transparent += transmissivePart(scene, object) != NULL;
+        tally.shadowless += object->noShadow;
         Bounds bounds;
-        switch (treatmentOf(&scene->objects[i], &bounds)) {
+        switch (treatmentOf(object, &bounds)) {
         case TREAT_SPHERE:
             tally.spheres++;
             break;
         case TREAT_MESH:
-            tally.triangles += scene->objects[i].mesh.data->triangleCount;
+            tally.triangles += object->mesh.data->triangleCount;
             break;
         case TREAT_BOXED:
             tally.boxed++;
@@ -126,6 +137,8 @@ static Tally sumTallies(Compiling *compiling)
         sum.boxed += own.boxed;
         sum.planes += own.planes;
         sum.endless += own.endless;
+        sum.transparent += own.transparent;
+        sum.shadowless += own.shadowless;
         sum.largest = fmax(sum.largest, own.largest);
     }
     return sum;
@@ -133,11 +146,11 @@ static Tally sumTallies(Compiling *compiling)
 
 /* ---- Storing ---- */
 
-/* A float at most x, or at least x, by less than two units in the last place. */
+/* A float below x, or above x, by one to three units in the last place. */
 static float roundedDown(double x)
 {
     float f = (float)x;
-    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+    return f - (fabsf(f) * 0x1p-23f + 0x1p-126f);
 }
 
 static float roundedUp(double x)
@@ -147,13 +160,10 @@ static float roundedUp(double x)
 
 static BuildItem createItem(Vector3D min, Vector3D max, double scale, size_t primitive)
 {
-    union {
-        float number;
-        int32_t primitive;
-    } both = {.primitive = (int32_t)primitive};
-    return (BuildItem){
-        {roundedDown(min.x * scale), roundedDown(min.y * scale), roundedDown(min.z * scale), both.number},
-        {roundedUp(max.x * scale), roundedUp(max.y * scale), roundedUp(max.z * scale), 0}};
+    BuildItem item = {{roundedDown(min.x * scale), roundedDown(min.y * scale), roundedDown(min.z * scale), 0},
+                      {roundedUp(max.x * scale), roundedUp(max.y * scale), roundedUp(max.z * scale), 0}};
+    setItemPrimitive(&item, (uint32_t)primitive);
+    return item;
 }
 
 /* The corners of a triangle in world space. */
@@ -398,11 +408,11 @@ static bool collectMaterials(Compiling *compiling)
     compiled->materials = malloc(capacity * sizeof *compiled->materials);
     bool ok = table != NULL && compiled->materials != NULL;
     for (size_t i = 0; i < scene->objectCount && ok; i++) {
-        const Material *material = &scene->objects[i].material;
-        if (i > 0 && memcmp(material, &scene->objects[i - 1].material, sizeof *material) == 0) {
+        if (compiled->objectMaterial[i] == SAME_MATERIAL) {
             compiled->objectMaterial[i] = compiled->objectMaterial[i - 1];
             continue;
         }
+        const Material *material = &scene->objects[i].material;
         size_t slot = hashMaterial(material) & (tableSize - 1);
         while (table[slot] != 0 &&
                memcmp(material, &compiled->materials[table[slot] - 1], sizeof *material) != 0)
@@ -441,21 +451,16 @@ static bool collectMaterials(Compiling *compiling)
 }
 
 /* Find the transparent objects, and which ones block no light by themselves. */
-static bool collectShadows(Compiling *compiling)
+static bool collectShadows(Compiling *compiling, const Tally *all)
 {
     const Scene *scene = compiling->scene;
     CompiledScene *compiled = compiling->compiled;
+    if (all->transparent + all->shadowless == 0)
+        return true;
     bool failed;
     compiled->transparent = findTransparentObjects(scene, &compiled->transparentCount, &failed);
-    if (failed)
-        return false;
-    size_t skipping = compiled->transparentCount;
-    for (size_t i = 0; i < scene->objectCount; i++)
-        skipping += scene->objects[i].noShadow;
-    if (skipping == 0)
-        return true;
     compiled->skipsShadow = calloc(scene->objectCount, 1);
-    if (compiled->skipsShadow == NULL)
+    if (failed || compiled->skipsShadow == NULL)
         return false;
     for (size_t i = 0; i < scene->objectCount; i++)
         compiled->skipsShadow[i] = scene->objects[i].noShadow;
@@ -479,18 +484,18 @@ static Status compileInto(Compiling *compiling, int threads)
     const Scene *scene = compiling->scene;
     CompiledScene *compiled = compiling->compiled;
     compiled->objectMaterial = malloc((scene->objectCount + 1) * sizeof *compiled->objectMaterial);
-    if (compiled->objectMaterial == NULL || !collectMaterials(compiling) || !collectShadows(compiling))
-        return statusOutOfMemory();
 
     /* Count. */
     compiling->chunkCount = (scene->objectCount + CHUNK_SIZE - 1) / CHUNK_SIZE;
     compiling->tallies = calloc(compiling->chunkCount + 1, sizeof *compiling->tallies);
-    if (compiling->tallies == NULL)
+    if (compiled->objectMaterial == NULL || compiling->tallies == NULL)
         return statusOutOfMemory();
     Status status = runTasks(compiling->chunkCount, threads, tallyChunk, compiling);
     if (!statusIsOk(&status))
         return status;
     Tally all = sumTallies(compiling);
+    if (!collectMaterials(compiling) || !collectShadows(compiling, &all))
+        return statusOutOfMemory();
     if (all.spheres + all.triangles + all.boxed > MOST_PRIMITIVES)
         return statusError(
             STATUS_SCENE,

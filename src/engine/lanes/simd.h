@@ -23,6 +23,7 @@
 typedef float F8 __attribute__((vector_size(32)));
 typedef int32_t I8 __attribute__((vector_size(32)));
 typedef float F4 __attribute__((vector_size(16)));
+typedef int32_t I4 __attribute__((vector_size(16)));
 
 /* All lanes the same. */
 static inline F8 f8Set(float x)
@@ -193,7 +194,13 @@ static inline F4 f4Min(F4 a, F4 b)
 
 static inline F4 f4Max(F4 a, F4 b)
 {
-    return -f4Min(-a, -b);
+#if defined SIMD_SSE2
+    return (F4)_mm_max_ps((__m128)a, (__m128)b);
+#else
+    for (int i = 0; i < 4; i++)
+        a[i] = a[i] > b[i] ? a[i] : b[i];
+    return a;
+#endif
 }
 
 #endif
