@@ -260,7 +260,7 @@ static void placeCentral(const ShadowFrame *frame, const LightLanes *arriving, F
         double depth = dot(from, frame->z), inverse = 1 / depth;
         double size = largestCoordinate(start), noise = 1e-9 * (originSize + size);
         double least = LEAST_COSINE * LEAST_COSINE * dot(from, from);
-        bool good = depth > noise && depth * depth > least;
+        int good = (depth > noise) & (depth * depth > least);
         floats->bad.v[k] = good ? 0 : -1;
         floats->u[k] = (float)(good ? dot(from, frame->x) * inverse : 0);
         floats->v[k] = (float)(good ? dot(from, frame->y) * inverse : 0);
