@@ -3,7 +3,7 @@
 #
 # Usage: bench/load.sh [COUNT...]; 100,000 and 1,000,000 by default. For each count, once as rows of one
 # `spheres` and once as one object a line: the whole process `eclairage check` and the whole process of
-# parse_yaml, which only asks libyaml for all events, take turns. Printed are the best of five of each in
+# yaml_parse, which only asks libyaml for all events, take turns. Printed are the best of five of each in
 # seconds, the median of the five quotients, and the peak memory, in bytes an object too. Other work on the
 # machine hits both, so the quotient is what to compare.
 # Needs build/eclairage (or ECLAIRAGE) with its library beside it, a C compiler, awk and GNU time.
@@ -19,8 +19,7 @@ if ! [ -x /usr/bin/time ]; then
     exit 0
 fi
 # shellcheck disable=SC2046 # the libraries are several words
-${CC:-cc} -std=c17 -O2 -D_POSIX_C_SOURCE=200809L -Isrc -I. -pthread -o "$folder/parse_yaml" bench/parse_yaml.c \
-    "$(dirname "$eclairage")/libeclairage.a" $(pkg-config --libs libpng yaml-0.1) -lm
+${CC:-cc} -std=c17 -O2 -o "$folder/yaml_parse" bench/yaml_parse.c $(pkg-config --cflags --libs yaml-0.1)
 
 # writeScene COUNT FORM: a scene of so many random spheres.
 writeScene() {
@@ -50,7 +49,7 @@ for count in "$@"; do
     for form in rows objects; do
         writeScene "$count" "$form" >"$folder/spheres.yaml"
         for _ in 1 2 3 4 5; do
-            echo "$(measure "$folder/parse_yaml" "$folder/spheres.yaml")" \
+            echo "$(measure "$folder/yaml_parse" "$folder/spheres.yaml")" \
                 "$(measure "$eclairage" check "$folder/spheres.yaml")"
         done | awk '{ print ($1 > 0 ? $3 / $1 : 0), $0 }' | sort -n | awk -v count="$count" -v form="$form" '
             { quotient[NR] = $1 }
