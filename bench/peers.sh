@@ -43,18 +43,14 @@ compileTool() { # FLAGS FILE LIBRARIES
     # shellcheck disable=SC2086
     ${CC:-cc} -std=c17 $1 -D_POSIX_C_SOURCE=200809L -pthread -o "$folder/tools/$tool" "$2" $3 -lm
 }
-includes="-O2 -Isrc -I. $(pkg-config --cflags libpng yaml-0.1)"
-library="$(dirname "$program")/libeclairage.a $(pkg-config --libs libpng yaml-0.1)"
+includes="-O2 -Isrc -I. $(pkg-config --cflags libpng zlib yaml-0.1)"
+library="$(dirname "$program")/libeclairage.a $(pkg-config --libs libpng zlib yaml-0.1)"
 compileTool "$includes" bench/peers/same_picture.c "$library"
 compileTool "$includes" bench/yaml_parse.c "$library"
 if echo '#include <embree3/rtcore.h>' | ${CC:-cc} -E - >/dev/null 2>&1; then
     compileTool "$cflags" bench/peers/embree_peer.c -lembree3
 fi
-if [ -e src/engine/engine.h ]; then
-    compileTool "$includes" bench/peers/scene_bytes.c "$library"
-else
-    echo "peers: the bytes of a compiled scene are skipped, there is no src/engine/engine.h"
-fi
+compileTool "$includes" bench/peers/scene_bytes.c "$library"
 
 # Numbers of a part of the table, of a small picture or without a peer are not the ones to commit.
 results=${RESULTS-}
