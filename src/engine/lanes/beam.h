@@ -48,31 +48,29 @@ static inline float largestDepth(const Bundle *bundle)
 
 static inline void createBeam(const Bundle *bundle, Beam *beam)
 {
-    const float outside = 1e30f;
+    /* Largest numbers are found as smallest ones with the other sign. */
+    F8 outside = f8Set(1e30f), slopes = f8Set(1);
     _Alignas(32) float uMin[8], uMax[8], vMin[8], vMax[8];
-    F8 slopes = f8Set(1);
-    beam->uMin = beam->vMin = outside;
-    beam->uMax = beam->vMax = -outside;
     for (int p = 0; p < PACKETS; p++) {
-        uMin[p] = vMin[p] = outside;
-        uMax[p] = vMax[p] = -outside;
-        if (bundle->active[p] == 0)
-            continue;
         I8 mask = maskOfBits(bundle->active[p]);
-        uMin[p] = f8Least(f8Select(mask, bundle->u[p], f8Set(outside)));
-        uMax[p] = f8Largest(f8Select(mask, bundle->u[p], f8Set(-outside)));
-        vMin[p] = f8Least(f8Select(mask, bundle->v[p], f8Set(outside)));
-        vMax[p] = f8Largest(f8Select(mask, bundle->v[p], f8Set(-outside)));
+        F8 u = bundle->u[p], v = bundle->v[p];
+        F4 least = f8Least4(f8Select(mask, u, outside), f8Select(mask, -u, outside),
+                            f8Select(mask, v, outside), f8Select(mask, -v, outside));
+        uMin[p] = least[0];
+        uMax[p] = -least[1];
+        vMin[p] = least[2];
+        vMax[p] = -least[3];
         slopes = f8Max(slopes, f8Select(mask, bundle->slope[p], slopes));
-        beam->uMin = uMin[p] < beam->uMin ? uMin[p] : beam->uMin;
-        beam->uMax = uMax[p] > beam->uMax ? uMax[p] : beam->uMax;
-        beam->vMin = vMin[p] < beam->vMin ? vMin[p] : beam->vMin;
-        beam->vMax = vMax[p] > beam->vMax ? vMax[p] : beam->vMax;
     }
     beam->packetUMin = f8Load(uMin);
     beam->packetUMax = f8Load(uMax);
     beam->packetVMin = f8Load(vMin);
     beam->packetVMax = f8Load(vMax);
+    F4 least = f8Least4(beam->packetUMin, -beam->packetUMax, beam->packetVMin, -beam->packetVMax);
+    beam->uMin = least[0];
+    beam->uMax = -least[1];
+    beam->vMin = least[2];
+    beam->vMax = -least[3];
     beam->slopeMax = f8Largest(slopes);
     beam->slopeRoot = sqrtf(beam->slopeMax);
 

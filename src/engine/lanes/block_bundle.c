@@ -185,7 +185,8 @@ void PATH(blockBundle)(Bundle *bundle, uint32_t *lastBlock)
         return;
     Beam beam;
     createBeam(bundle, &beam);
-    Slabs slabs = {.isReady = false};
+    Slabs slabs;
+    slabs.isReady = false;
     if (*lastBlock != CHILD_NONE) {
         blockByLeaf(bundle, &beam, *lastBlock, &slabs);
         if (raysLeft(bundle) == 0)

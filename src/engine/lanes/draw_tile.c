@@ -18,7 +18,8 @@ void PATH(drawTile)(const TileJob *job, int left, int top, uint32_t *lastBlocks,
     /* The mean of n x n rays, evenly spread; of one, through the middle. As renderPixel of the course's
      * tracer. */
     VectorLanes sums;
-    EACH_LANE(k)
+    if (n > 1)
+        EACH_LANE(k)
     setLaneVector(&sums, k, createVector(0, 0, 0));
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++) {
@@ -34,14 +35,19 @@ void PATH(drawTile)(const TileJob *job, int left, int top, uint32_t *lastBlocks,
                     sums.z[k] += (double)tile.colors.b[k];
                 }
         }
-    double count = (double)n * n;
-    EACH_SET(k, tile.inPicture)
-    {
-        Color3f color = laneColor(&tile.colors, k);
-        if (n > 1)
-            color = createColor((float)(sums.x[k] / count), (float)(sums.y[k] / count),
-                                (float)(sums.z[k] / count));
-        size_t row = (size_t)(top + laneY(k)) * (size_t)framebuffer->width;
-        framebuffer->pixels[row + (size_t)(left + laneX(k))] = color;
+    if (n > 1) {
+        double count = (double)n * n;
+        EACH_LANE(k)
+        setLaneColor(
+            &tile.colors, k,
+            createColor((float)(sums.x[k] / count), (float)(sums.y[k] / count), (float)(sums.z[k] / count)));
+    }
+    Color3f *pixels = framebuffer->pixels + (size_t)top * (size_t)framebuffer->width + left;
+    if (tile.inPicture == ~0ull) {
+        EACH_LANE(k)
+        pixels[(size_t)laneY(k) * (size_t)framebuffer->width + (size_t)laneX(k)] = laneColor(&tile.colors, k);
+    } else {
+        EACH_SET(k, tile.inPicture)
+        pixels[(size_t)laneY(k) * (size_t)framebuffer->width + (size_t)laneX(k)] = laneColor(&tile.colors, k);
     }
 }

@@ -166,7 +166,8 @@ void PATH(meetBundle)(Bundle *bundle)
         return;
     Beam beam;
     createBeam(bundle, &beam);
-    Slabs slabs = {.isReady = false};
+    Slabs slabs;
+    slabs.isReady = false;
     Waiting stack[BVH_STACK_SIZE];
     int waiting = 0;
     uint32_t current = compiled->root;

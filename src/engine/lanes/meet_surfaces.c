@@ -155,7 +155,7 @@ static void storePoint(TileLanes *tile, int k, const Object *object, const Hit *
     tile->offsets.v[k] = point.offset;
     setLaneVector(&tile->positions, k, point.position);
     setLaneVector(&tile->normals, k, point.normal);
-    setLaneVector(&tile->flatNormals, k, point.flatNormal);
+    setLaneVector(&tile->ownNormals, k, point.flatNormal);
     tile->surfaces[k] = hit->object;
     if (hit->object != object)
         tile->materials[k] = PART_MATERIAL;
@@ -244,9 +244,6 @@ static void meetSphereLanes(TileLanes *tile, uint64_t lanes)
         tile->normals.x[k] = mine ? normal.x : tile->normals.x[k];
         tile->normals.y[k] = mine ? normal.y : tile->normals.y[k];
         tile->normals.z[k] = mine ? normal.z : tile->normals.z[k];
-        tile->flatNormals.x[k] = mine ? normal.x : tile->flatNormals.x[k];
-        tile->flatNormals.y[k] = mine ? normal.y : tile->flatNormals.y[k];
-        tile->flatNormals.z[k] = mine ? normal.z : tile->flatNormals.z[k];
 
         /* From outside, a sphere does not hide the light from its own lit points: they are lifted off it by
          * more than any rounding (unless it is a speck beside its coordinates), and it is convex. */
@@ -294,9 +291,6 @@ static void meetPlaneLanes(TileLanes *tile, uint64_t lanes)
         tile->normals.x[k] = mine ? normal.x : tile->normals.x[k];
         tile->normals.y[k] = mine ? normal.y : tile->normals.y[k];
         tile->normals.z[k] = mine ? normal.z : tile->normals.z[k];
-        tile->flatNormals.x[k] = mine ? normal.x : tile->flatNormals.x[k];
-        tile->flatNormals.y[k] = mine ? normal.y : tile->flatNormals.y[k];
-        tile->flatNormals.z[k] = mine ? normal.z : tile->flatNormals.z[k];
     }
 }
 
@@ -348,9 +342,9 @@ static void meetTriangleLanes(TileLanes *tile, uint64_t lanes, HitWays *ways)
         tile->normals.x[k] = mine ? normal.x : tile->normals.x[k];
         tile->normals.y[k] = mine ? normal.y : tile->normals.y[k];
         tile->normals.z[k] = mine ? normal.z : tile->normals.z[k];
-        tile->flatNormals.x[k] = mine ? flat.x : tile->flatNormals.x[k];
-        tile->flatNormals.y[k] = mine ? flat.y : tile->flatNormals.y[k];
-        tile->flatNormals.z[k] = mine ? flat.z : tile->flatNormals.z[k];
+        tile->ownNormals.x[k] = mine ? flat.x : tile->ownNormals.x[k];
+        tile->ownNormals.y[k] = mine ? flat.y : tile->ownNormals.y[k];
+        tile->ownNormals.z[k] = mine ? flat.z : tile->ownNormals.z[k];
     }
     ways->others |= lanes & setOfMask(&unusual);
     EACH_LANE(k)
@@ -388,6 +382,12 @@ void PATH(meetSurfaces)(TileLanes *tile)
         meetSphereLanes(tile, ways.spheres);
     if (ways.planes != 0)
         meetPlaneLanes(tile, ways.planes);
+    /* So far the surfaces' own normals are the same. */
+    tile->flatNormals = &tile->normals;
+    if ((ways.triangles | ways.others) != 0) {
+        tile->ownNormals = tile->normals;
+        tile->flatNormals = &tile->ownNormals;
+    }
     if (ways.triangles != 0)
         meetTriangleLanes(tile, ways.triangles, &ways);
     if (ways.others != 0)

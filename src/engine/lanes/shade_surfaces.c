@@ -130,7 +130,7 @@ static void arrive(const TileLanes *tile, const Light *light, int sample, LightL
     }
     EACH_LANE(k)
     {
-        Vector3D l = laneVector(&arriving->directions, k), flat = laneVector(&tile->flatNormals, k);
+        Vector3D l = laneVector(&arriving->directions, k), flat = laneVector(tile->flatNormals, k);
         Color3f c = laneColor(&arriving->colors, k);
         double cosine = dot(laneVector(&tile->normals, k), l);
         arriving->cosines.v[k] = cosine;
@@ -179,16 +179,15 @@ static uint64_t endlessShadows(const TileLanes *tile, const LightLanes *arriving
         double end = isDirectional ? dot(normal, light->direction) : dot(normal, light->position) - height;
         double endSize = isDirectional ? 1 : largestCoordinate(light->position) + size;
         MaskLanes unsure;
+        /* With the end's sign turned to above, both are above. */
+        double sign = end < 0 ? -1 : 1, ends = end * sign;
         EACH_LANE(k)
         {
             Vector3D start = laneVector(&arriving->starts, k);
-            double side = dot(normal, start) - height;
+            double side = (dot(normal, start) - height) * sign;
             double startSize = largestCoordinate(start) + size;
-            double margin = 0x1p-46 * startSize;
             double endMargin = 0x1p-30 * (isDirectional ? endSize : endSize + startSize);
-            int above = (side > margin) & (end > endMargin);
-            int below = (side < -margin) & (end < -endMargin);
-            unsure.v[k] = above | below ? 0 : -1;
+            unsure.v[k] = (side > 0x1p-46 * startSize) & (ends > endMargin) ? 0 : -1;
         }
         doubtful |= setOfMask(&unsure) & lit;
     }
@@ -545,7 +544,7 @@ static SurfacePoint lanePoint(const TileLanes *tile, int k)
                           .hit = {.distance = tile->distances.v[k], .object = tile->surfaces[k]},
                           .position = laneVector(&tile->positions, k),
                           .normal = laneVector(&tile->normals, k),
-                          .flatNormal = laneVector(&tile->flatNormals, k),
+                          .flatNormal = laneVector(tile->flatNormals, k),
                           .offset = tile->offsets.v[k]};
 }
 

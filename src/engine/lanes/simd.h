@@ -203,4 +203,17 @@ static inline F4 f4Max(F4 a, F4 b)
 #endif
 }
 
+/* The smallest lane of each of four. */
+static inline F4 f8Least4(F8 a, F8 b, F8 c, F8 d)
+{
+    F8 ab = f8Min(__builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13),
+                  __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15));
+    F8 cd = f8Min(__builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13),
+                  __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15));
+    F8 all = f8Min(__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13),
+                   __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15));
+    return f4Min(__builtin_shufflevector(all, all, 0, 1, 2, 3),
+                 __builtin_shufflevector(all, all, 4, 5, 6, 7));
+}
+
 #endif

@@ -78,7 +78,10 @@ typedef struct TileLanes {
     /* Where they meet a surface: as in SurfacePoint. */
     uint64_t met;
     NumberLanes distances, offsets;
-    VectorLanes positions, normals, flatNormals;
+    VectorLanes positions, normals;
+    VectorLanes
+        ownNormals; /* of the surfaces themselves, in tiles where some are interpolated or not turned */
+    const VectorLanes *flatNormals;            /* these, or normals */
     _Alignas(64) int32_t ownPrimitives[LANES]; /* what cannot hide a light from the point, or NO_PRIMITIVE */
     uint32_t objects[LANES];
     const Object *surfaces[LANES]; /* the object, or the part of a solid, that has the surface */
