@@ -1,11 +1,12 @@
-/* engines.c - random scenes, each drawn by the course's tracer and by the fast engine: the same picture to the
- * last bit, and the same counts of rays.
+/* engines.c - random scenes, each drawn by the course's tracer and by the fast engine: the same picture to
+ * the last bit, and the same counts of rays.
  *
- *   build/engines [--seeds A..B] [--nasty A..B] [--print SEED]
+ *   build/engines [--seeds A..B] [--nasty A..B] [--print SEED] [--scene FILE]
  *
  * Prints TAP, one test for each batch of scenes. --seeds: scenes of random_scene.c, over the whole vocabulary
- * of the format; one that differs is made smaller as long as it still does, and printed as YAML. --nasty: those
- * of nasty_scene.c; what is left out of one that differs is printed. Run from the repository root.
+ * of the format; one that differs is made smaller as long as it still does, and printed as YAML. --nasty:
+ * those of nasty_scene.c; what is left out of one that differs is printed. --scene: one from a file. Run from
+ * the repository root.
  */
 #include "nasty_scene.h"
 #include "random_scene.h"
@@ -131,6 +132,21 @@ static bool checkNasty(uint64_t seed, const Paths *paths)
     return false;
 }
 
+static bool checkFile(const char *path, const Paths *paths)
+{
+    char difference[DIFFERENCE_SIZE] = "it cannot be loaded";
+    Scene scene;
+    Diagnostics diagnostics = {0};
+    Status status = loadScene(path, &scene, &diagnostics);
+    diagnosticsFree(&diagnostics);
+    bool agreed = statusIsOk(&status) && agree(&scene, paths, 1, difference);
+    if (statusIsOk(&status))
+        freeScene(&scene);
+    printf("%sok 1 - %s%s%s\n1..1\n", agreed ? "" : "not ", path, agreed ? "" : ": ",
+           agreed ? "" : difference);
+    return agreed;
+}
+
 /* ---- The run ---- */
 
 typedef struct Seeds {
@@ -171,8 +187,13 @@ static int runSeeds(const Seeds *seeds, const char *what, bool (*check)(uint64_t
 int main(int argc, char **argv)
 {
     Seeds random = {.wanted = false}, nasty = {.wanted = false}, print = {.wanted = false};
+    const char *file = NULL;
     bool ok = argc > 1 && argc % 2 == 1;
     for (int i = 1; i < argc && ok; i += 2) {
+        if (strcmp(argv[i], "--scene") == 0) {
+            file = argv[i + 1];
+            continue;
+        }
         Seeds *seeds = strcmp(argv[i], "--seeds") == 0   ? &random
                        : strcmp(argv[i], "--nasty") == 0 ? &nasty
                        : strcmp(argv[i], "--print") == 0 ? &print
@@ -180,7 +201,7 @@ int main(int argc, char **argv)
         ok = seeds != NULL && readSeeds(argv[i + 1], seeds);
     }
     if (!ok) {
-        fprintf(stderr, "usage: engines [--seeds A..B] [--nasty A..B] [--print SEED]\n");
+        fprintf(stderr, "usage: engines [--seeds A..B] [--nasty A..B] [--print SEED] [--scene FILE]\n");
         return 2;
     }
     if (print.wanted) {
@@ -195,6 +216,8 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < paths.count; i++)
         printf(" %s", paths.names[i]);
     printf("\n");
+    if (file != NULL)
+        return !checkFile(file, &paths);
     int number = 0, failed = runSeeds(&random, "seeds", checkSeed, &paths, &number);
     failed += runSeeds(&nasty, "nasty scenes", checkNasty, &paths, &number);
     printf("1..%d\n", number);

@@ -1,8 +1,9 @@
 /* nasty_scene.c - random scenes made of coincidences; see nasty_scene.h.
  *
- * Points lie on a lattice, mostly: spheres touch and coincide, triangles share edges and planes, rays run along
- * axes, through edges and vertices, the eye and the lights are on surfaces. Then the whole scene is scaled and
- * moved, by up to what still is a scene. Nothing of it is likely to have a picture that is worth looking at.
+ * Points lie on a lattice, mostly: spheres touch and coincide, triangles share edges and planes, rays run
+ * along axes, through edges and vertices, the eye and the lights are on surfaces. Then the whole scene is
+ * scaled and moved, by up to what still is a scene. Nothing of it is likely to have a picture that is worth
+ * looking at.
  */
 #include "nasty_scene.h"
 
@@ -133,7 +134,8 @@ static const Transform *transform(Chance *chance, Scene *scene, double probabili
     by.x = factors[pick(chance, most)];
     by.y = factors[pick(chance, most)];
     by.z = factors[pick(chance, most)];
-    Matrix stretch = scalingMatrix(by), move = translationMatrix(multVector(barePoint(chance), chance->scale));
+    Matrix stretch = scalingMatrix(by),
+           move = translationMatrix(multVector(barePoint(chance), chance->scale));
     Matrix all = composeMatrices(&turn, &stretch);
     if (happens(chance, 0.5))
         all = composeMatrices(&all, &move);

@@ -1,4 +1,5 @@
-/* nasty_scene.h - random scenes made of coincidences: what an author rarely draws and an engine trips over. */
+/* nasty_scene.h - random scenes made of coincidences: what an author rarely draws and an engine trips over.
+ */
 #ifndef ECLAIRAGE_TESTS_NASTY_SCENE_H
 #define ECLAIRAGE_TESTS_NASTY_SCENE_H
 
