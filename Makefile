@@ -95,14 +95,17 @@ PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/patterns/*.h src/shapes/*.
 # Files in tests/unit that are not test programs are helpers, linked into each of them.
 UNIT_SOURCES := $(wildcard tests/unit/test_*.c)
 UNIT_HELPERS := $(filter-out $(UNIT_SOURCES),$(wildcard tests/unit/*.c))
+# The programs in tests/property, and the helpers that each of them is linked with.
+PROPERTY_PROGRAMS := crosscheck engines
 PROPERTY_SOURCES := $(wildcard tests/property/*.c)
+PROPERTY_HELPERS := $(filter-out $(PROPERTY_PROGRAMS:%=tests/property/%.c),$(PROPERTY_SOURCES)) tests/unit/both_engines.c
 
 objects = $(1:%.c=$(BUILD)/obj/%.o)
 LANE_OBJECTS := $(foreach path,$(LANE_PATHS),$(LANE_SOURCES:%.c=$(BUILD)/obj/%.$(path).o))
 LIBRARY_OBJECTS := $(call objects,$(LIBRARY_SOURCES)) $(LANE_OBJECTS)
 PROGRAM_OBJECTS := $(call objects,$(PROGRAM_SOURCES))
 UNIT_OBJECTS := $(call objects,$(UNIT_HELPERS))
-PROPERTY_OBJECTS := $(call objects,$(PROPERTY_SOURCES))
+PROPERTY_OBJECTS := $(call objects,$(PROPERTY_HELPERS))
 UNIT_TESTS := $(UNIT_SOURCES:tests/unit/%.c=$(BUILD)/tests/%)
 
 # ---------------------------------------------------------------------------------------------------------
@@ -146,9 +149,10 @@ $(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
 	$(Q)$(REQUIRE_UNIT_TOOLS)$(COMPILE) $(LDFLAGS) -MMD -MP -MF $@.d -o $@ $< $(UNIT_OBJECTS) \
 		$(BUILD)/libeclairage.a -lcmocka $(LIBRARIES)
 
-$(BUILD)/crosscheck: $(PROPERTY_OBJECTS) $(BUILD)/libeclairage.a
+$(PROPERTY_PROGRAMS:%=$(BUILD)/%): $(BUILD)/%: $(BUILD)/obj/tests/property/%.o $(PROPERTY_OBJECTS) \
+		$(BUILD)/libeclairage.a
 	$(call say,LINK,$@)
-	$(Q)$(COMPILE) $(LDFLAGS) -o $@ $(PROPERTY_OBJECTS) $(BUILD)/libeclairage.a $(LIBRARIES)
+	$(Q)$(COMPILE) $(LDFLAGS) -o $@ $< $(PROPERTY_OBJECTS) $(BUILD)/libeclairage.a $(LIBRARIES)
 
 # A stamp changes only when its text does: other flags or another compiler rebuild everything, a removed
 # source leaves the library, and otherwise nothing happens.
@@ -162,7 +166,7 @@ $(BUILD)/library-files: FORCE
 FORCE:
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(PROGRAM_OBJECTS:.o=.d) $(UNIT_OBJECTS:.o=.d) $(UNIT_TESTS:=.d) \
-	$(PROPERTY_OBJECTS:.o=.d)
+	$(patsubst %.c,$(BUILD)/obj/%.d,$(PROPERTY_SOURCES))
 
 # ---------------------------------------------------------------------------------------------------------
 # Seeing it work, and testing it

@@ -136,7 +136,7 @@ static void arrive(const TileLanes *tile, const Light *light, int sample, LightL
         arriving->cosines.v[k] = cosine;
         int inFront = cosine > 0;
         int black = (c.r == 0) & (c.g == 0) & (c.b == 0);
-        arriving->lit.v[k] = inFront & !black ? -1 : 0;
+        arriving->lit.v[k] = (inFront & !black) != 0 ? -1 : 0;
 
         /* As offsetStart. */
         double along = dot(flat, l);
@@ -217,20 +217,21 @@ static const double FARTHEST_LIGHT = 1024;
 
 typedef double D4 __attribute__((vector_size(32)));
 
-/* The sum of the vectors of these lanes; the others count 0 times. */
+/* The sum of the vectors of these lanes. What is in the others may be no number, so they are left out rather
+ * than multiplied by 0. */
 static Vector3D sumOfLanes(const VectorLanes *vectors, const MaskLanes *mask)
 {
-    NumberLanes weights;
-    EACH_LANE(k)
-    weights.v[k] = mask->v[k] != 0 ? 1 : 0;
     const double *const coordinates[3] = {vectors->x, vectors->y, vectors->z};
     double sums[3];
     for (int axis = 0; axis < 3; axis++) {
-        const D4 *values = (const D4 *)coordinates[axis], *by = (const D4 *)weights.v;
+        NumberLanes counted;
+        EACH_LANE(k)
+        counted.v[k] = mask->v[k] != 0 ? coordinates[axis][k] : 0;
+        const D4 *values = (const D4 *)counted.v;
         D4 sum[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
         for (int i = 0; i < LANES / 4; i += 2) {
-            sum[0] += values[i] * by[i];
-            sum[1] += values[i + 1] * by[i + 1];
+            sum[0] += values[i];
+            sum[1] += values[i + 1];
         }
         D4 both = sum[0] + sum[1];
         sums[axis] = both[0] + both[1] + (both[2] + both[3]);
