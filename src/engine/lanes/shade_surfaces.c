@@ -217,26 +217,27 @@ static const double FARTHEST_LIGHT = 1024;
 
 typedef double D4 __attribute__((vector_size(32)));
 
-/* The sum of the vectors of these lanes. What is in the others may be no number, so they are left out rather
- * than multiplied by 0. */
-static Vector3D sumOfLanes(const VectorLanes *vectors, const MaskLanes *mask)
+/* The sum of these lanes. What is in the others may be no number, so they are left out rather than multiplied
+ * by 0. */
+static double sumOfLanes(const double *values, const MaskLanes *mask)
 {
-    const double *const coordinates[3] = {vectors->x, vectors->y, vectors->z};
-    double sums[3];
-    for (int axis = 0; axis < 3; axis++) {
-        NumberLanes counted;
-        EACH_LANE(k)
-        counted.v[k] = mask->v[k] != 0 ? coordinates[axis][k] : 0;
-        const D4 *values = (const D4 *)counted.v;
-        D4 sum[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
-        for (int i = 0; i < LANES / 4; i += 2) {
-            sum[0] += values[i];
-            sum[1] += values[i + 1];
-        }
-        D4 both = sum[0] + sum[1];
-        sums[axis] = both[0] + both[1] + (both[2] + both[3]);
+    NumberLanes counted;
+    EACH_LANE(k)
+    counted.v[k] = mask->v[k] != 0 ? values[k] : 0;
+    const D4 *fours = (const D4 *)counted.v;
+    D4 sum[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
+    for (int i = 0; i < LANES / 4; i += 2) {
+        sum[0] += fours[i];
+        sum[1] += fours[i + 1];
     }
-    return createVector(sums[0], sums[1], sums[2]);
+    D4 both = sum[0] + sum[1];
+    return both[0] + both[1] + (both[2] + both[3]);
+}
+
+static Vector3D sumOfVectors(const VectorLanes *vectors, const MaskLanes *mask)
+{
+    return createVector(sumOfLanes(vectors->x, mask), sumOfLanes(vectors->y, mask),
+                        sumOfLanes(vectors->z, mask));
 }
 
 /* The rays to a light, in the frame that they are bundled in. */
@@ -267,8 +268,8 @@ static void placeCentral(const ShadowFrame *frame, const LightLanes *arriving, F
         floats->low[k] = (float)(depth * (1 - 1e-6) * scale);
         floats->high[k] = (float)(depth * (1 + 1e-6) * scale);
         /* The referee's rays are as wrong as their ends are far away. */
-        double counts = arriving->lit.v[k] != 0 ? 0x1p-28 : 0;
-        floats->size[k] = (float)(good ? size * scale * counts : 0);
+        int counts = (arriving->lit.v[k] != 0) & good;
+        floats->size[k] = (float)(counts != 0 ? size * scale * 0x1p-28 : 0);
     }
 }
 
@@ -306,10 +307,10 @@ static uint64_t bundleShadows(TileLanes *tile, const LightLanes *arriving, const
     Vector3D toLight = light->direction;
     if (bundle->isParallel) {
         frame.origin =
-            multVector(sumOfLanes(&arriving->starts, &arriving->lit), 1.0 / __builtin_popcountll(lit));
+            multVector(sumOfVectors(&arriving->starts, &arriving->lit), 1.0 / __builtin_popcountll(lit));
     } else {
         frame.origin = light->position;
-        toLight = sumOfLanes(&arriving->directions, &arriving->lit);
+        toLight = sumOfVectors(&arriving->directions, &arriving->lit);
         if (!(dot(toLight, toLight) > 0.01))
             return lit;
         toLight = normalize(toLight);
