@@ -11,8 +11,7 @@ void PATH(aimRays)(TileLanes *tile, int left, int top, double x, double y)
     int width = tile->job->framebuffer->width, height = tile->job->framebuffer->height;
     VectorLanes *origins = &tile->origins, *directions = &tile->directions;
     if (frame->projection == PROJECTION_ORTHOGRAPHIC) {
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             Vector3D start =
                 pictureVector(frame, frame->position, left + laneX(k) + x, top + laneY(k) + y, width, height);
             setLaneVector(origins, k, start);
@@ -22,8 +21,7 @@ void PATH(aimRays)(TileLanes *tile, int left, int top, double x, double y)
     }
     Vector3D forward = frame->forward;
     int unusual = 0;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Vector3D sum = pictureVector(frame, forward, left + laneX(k) + x, top + laneY(k) + y, width, height);
         double squared = dot(sum, sum);
         unusual |= !isUsualSquare(squared);
@@ -32,9 +30,9 @@ void PATH(aimRays)(TileLanes *tile, int left, int top, double x, double y)
     }
     if (unusual)
         EACH_LANE(k)
-    setLaneVector(
-        directions, k,
-        normalize(pictureVector(frame, forward, left + laneX(k) + x, top + laneY(k) + y, width, height)));
+            setLaneVector(directions, k,
+                          normalize(pictureVector(frame, forward, left + laneX(k) + x, top + laneY(k) + y,
+                                                  width, height)));
 }
 
 /* Make the bundle of the camera's rays: their frame, and where each goes in it. */
@@ -53,8 +51,7 @@ static void bundleRays(TileLanes *tile)
     const VectorLanes *directions = &tile->directions, *origins = &tile->origins;
     if (bundle->isParallel) {
         float farthest = 0;
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             Vector3D from = subVectors(laneVector(origins, k), frame->position);
             u[k] = (float)(dot(from, x) * compiled->scale);
             v[k] = (float)(dot(from, y) * compiled->scale);
@@ -64,8 +61,7 @@ static void bundleRays(TileLanes *tile)
         /* A ray that is farther out meets nothing in the tree. */
         bundle->largest += farthest < 4 ? farthest : 4;
     } else {
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             Vector3D d = laneVector(directions, k);
             double along = dot(d, z);
             u[k] = (float)(dot(d, x) / along);
@@ -93,8 +89,7 @@ static void meetEndlessObjects(TileLanes *tile)
     const VectorLanes *origins = &tile->origins, *directions = &tile->directions;
     double *nearest = bundle->exact;
     int32_t *primitives = (int32_t *)bundle->primitives;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         nearest[k] = INFINITY;
         primitives[k] = NO_PRIMITIVE;
     }
@@ -102,8 +97,7 @@ static void meetEndlessObjects(TileLanes *tile)
         Vector3D normal = compiled->planes[i].normal;
         double height = compiled->planes[i].height;
         int32_t code = endlessCode(i);
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             double slope = dot(normal, laneVector(directions, k));
             double distance = (height - dot(normal, laneVector(origins, k))) / slope;
             /* Without slope the distance is infinite or no number. */
@@ -114,8 +108,7 @@ static void meetEndlessObjects(TileLanes *tile)
     }
     for (size_t i = 0; i < compiled->endlessCount; i++) {
         uint32_t number = compiled->endless[i];
-        EACH_SET(k, tile->inPicture)
-        {
+        EACH_SET(k, tile->inPicture) {
             Ray ray = createRay(laneVector(origins, k), laneVector(directions, k));
             HitSink sink = createHitSink(0, false);
             intersectObject(&compiled->scene->objects[number], &ray, &sink);
@@ -133,8 +126,7 @@ static void meetEndlessObjects(TileLanes *tile)
     double scale = compiled->scale;
     const float *slopes = (const float *)bundle->slope;
     float *low = (float *)bundle->nearest, *high = (float *)bundle->farthest;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         double depth = nearest[k] * scale / sqrt((double)slopes[k]);
         /* Nothing in the tree is farther away than this, and floats go no farther. */
         depth = depth < 1e30 ? depth : 1e30;
@@ -161,6 +153,11 @@ static void storePoint(TileLanes *tile, int k, const Object *object, const Hit *
         tile->materials[k] = PART_MATERIAL;
 }
 
+/* Most tiles see one kind of thing: their loops need not choose between lanes. */
+#define ALWAYS_INLINE __attribute__((always_inline))
+#define WHOLE_OR_PART(function, tile, lanes)                                                                 \
+    ((lanes) == ~0ull ? function(tile, ~0ull, true) : function(tile, lanes, false))
+
 /* The lanes of each way to work out a hit. */
 typedef struct HitWays {
     uint64_t spheres, planes, triangles, others;
@@ -172,8 +169,7 @@ static HitWays sortHitLanes(TileLanes *tile)
     const int32_t *primitives = (const int32_t *)tile->bundle.primitives;
     HitWays ways = {0};
     tile->met = 0;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         int32_t primitive = primitives[k];
         uint64_t bit = (tile->inPicture >> k & 1) << k;
         tile->ownPrimitives[k] = NO_PRIMITIVE;
@@ -202,7 +198,7 @@ static HitWays sortHitLanes(TileLanes *tile)
     return ways;
 }
 
-static void meetSphereLanes(TileLanes *tile, uint64_t lanes)
+static inline ALWAYS_INLINE void meetSphereLanes(TileLanes *tile, uint64_t lanes, bool whole)
 {
     /* Gather the spheres; other lanes get one that does no harm. */
     const CompiledScene *compiled = tile->job->compiled;
@@ -211,8 +207,7 @@ static void meetSphereLanes(TileLanes *tile, uint64_t lanes)
     NumberLanes radii;
     MaskLanes mask;
     maskOfSet(lanes, &mask);
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         ExactSphere sphere = {{0, 0, 0}, 1};
         if (mask.v[k] != 0)
             sphere = compiled->spheres[primitives[k]];
@@ -221,8 +216,7 @@ static void meetSphereLanes(TileLanes *tile, uint64_t lanes)
     }
 
     MaskLanes isOutside;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Ray ray = createRay(laneVector(&tile->origins, k), laneVector(&tile->directions, k));
         Vector3D center = laneVector(&centers, k);
         double radius = radii.v[k], first, second;
@@ -235,7 +229,7 @@ static void meetSphereLanes(TileLanes *tile, uint64_t lanes)
         double own = largestCoordinate(center) + radius;
         double offset = (largestCoordinate(ray.origin) + distance + own) * ROUNDING_MARGIN;
 
-        bool mine = mask.v[k] != 0;
+        bool mine = whole || mask.v[k] != 0;
         tile->distances.v[k] = mine ? distance : tile->distances.v[k];
         tile->offsets.v[k] = mine ? offset : tile->offsets.v[k];
         tile->positions.x[k] = mine ? position.x : tile->positions.x[k];
@@ -251,10 +245,10 @@ static void meetSphereLanes(TileLanes *tile, uint64_t lanes)
         isOutside.v[k] = mine && sees ? -1 : 0;
     }
     EACH_LANE(k)
-    tile->ownPrimitives[k] = isOutside.v[k] != 0 ? primitives[k] : tile->ownPrimitives[k];
+        tile->ownPrimitives[k] = isOutside.v[k] != 0 ? primitives[k] : tile->ownPrimitives[k];
 }
 
-static void meetPlaneLanes(TileLanes *tile, uint64_t lanes)
+static inline ALWAYS_INLINE void meetPlaneLanes(TileLanes *tile, uint64_t lanes, bool whole)
 {
     const CompiledScene *compiled = tile->job->compiled;
     const int32_t *primitives = (const int32_t *)tile->bundle.primitives;
@@ -262,8 +256,7 @@ static void meetPlaneLanes(TileLanes *tile, uint64_t lanes)
     NumberLanes magnitudes;
     MaskLanes mask;
     maskOfSet(lanes, &mask);
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Vector3D normal = createVector(0, 0, 1);
         double magnitude = 0;
         if (mask.v[k] != 0) {
@@ -274,15 +267,14 @@ static void meetPlaneLanes(TileLanes *tile, uint64_t lanes)
         setLaneVector(&planeNormals, k, normal);
         magnitudes.v[k] = magnitude;
     }
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Ray ray = createRay(laneVector(&tile->origins, k), laneVector(&tile->directions, k));
         double distance = tile->bundle.exact[k];
         Vector3D position = pointOnRay(&ray, distance);
         Vector3D normal = turnedToRay(laneVector(&planeNormals, k), &ray);
         double offset = (largestCoordinate(ray.origin) + distance + magnitudes.v[k]) * ROUNDING_MARGIN;
 
-        bool mine = mask.v[k] != 0;
+        bool mine = whole || mask.v[k] != 0;
         tile->distances.v[k] = mine ? distance : tile->distances.v[k];
         tile->offsets.v[k] = mine ? offset : tile->offsets.v[k];
         tile->positions.x[k] = mine ? position.x : tile->positions.x[k];
@@ -295,7 +287,7 @@ static void meetPlaneLanes(TileLanes *tile, uint64_t lanes)
 }
 
 /* Flat triangles without transform, as intersectTriangle meets them. */
-static void meetTriangleLanes(TileLanes *tile, uint64_t lanes, HitWays *ways)
+static inline ALWAYS_INLINE void meetTriangleLanes(TileLanes *tile, uint64_t lanes, bool whole, HitWays *ways)
 {
     const CompiledScene *compiled = tile->job->compiled;
     const int32_t *primitives = (const int32_t *)tile->bundle.primitives;
@@ -303,8 +295,7 @@ static void meetTriangleLanes(TileLanes *tile, uint64_t lanes, HitWays *ways)
     NumberLanes magnitudes;
     MaskLanes mask, unusual;
     maskOfSet(lanes, &mask);
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Vector3D p[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
         double magnitude = 0;
         if (mask.v[k] != 0) {
@@ -318,8 +309,7 @@ static void meetTriangleLanes(TileLanes *tile, uint64_t lanes, HitWays *ways)
             setLaneVector(&corners[c], k, p[c]);
         magnitudes.v[k] = magnitude;
     }
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Ray ray = createRay(laneVector(&tile->origins, k), laneVector(&tile->directions, k));
         Vector3D a = laneVector(&corners[0], k), b = laneVector(&corners[1], k),
                  c = laneVector(&corners[2], k);
@@ -333,7 +323,7 @@ static void meetTriangleLanes(TileLanes *tile, uint64_t lanes, HitWays *ways)
         double offset = (largestCoordinate(ray.origin) + distance + magnitudes.v[k]) * ROUNDING_MARGIN;
         unusual.v[k] = isUsualSquare(squared) && fabs(slope) > RAY_TRIANGLE_PARALLEL ? 0 : -1;
 
-        bool mine = mask.v[k] != 0;
+        bool mine = whole || mask.v[k] != 0;
         tile->distances.v[k] = mine ? distance : tile->distances.v[k];
         tile->offsets.v[k] = mine ? offset : tile->offsets.v[k];
         tile->positions.x[k] = mine ? position.x : tile->positions.x[k];
@@ -348,7 +338,7 @@ static void meetTriangleLanes(TileLanes *tile, uint64_t lanes, HitWays *ways)
     }
     ways->others |= lanes & setOfMask(&unusual);
     EACH_LANE(k)
-    tile->ownPrimitives[k] = mask.v[k] != 0 ? primitives[k] : tile->ownPrimitives[k];
+        tile->ownPrimitives[k] = mask.v[k] != 0 ? primitives[k] : tile->ownPrimitives[k];
 }
 
 static void meetOtherLanes(TileLanes *tile, uint64_t lanes)
@@ -356,8 +346,7 @@ static void meetOtherLanes(TileLanes *tile, uint64_t lanes)
     const CompiledScene *compiled = tile->job->compiled;
     Bundle *bundle = &tile->bundle;
     const int32_t *primitives = (const int32_t *)bundle->primitives;
-    EACH_SET(k, lanes)
-    {
+    EACH_SET(k, lanes) {
         int32_t primitive = primitives[k];
         if (primitive >= 0) {
             /* The referee may have seen it before. */
@@ -379,9 +368,9 @@ void PATH(meetSurfaces)(TileLanes *tile)
     PATH(meetBundle)(&tile->bundle);
     HitWays ways = sortHitLanes(tile);
     if (ways.spheres != 0)
-        meetSphereLanes(tile, ways.spheres);
+        WHOLE_OR_PART(meetSphereLanes, tile, ways.spheres);
     if (ways.planes != 0)
-        meetPlaneLanes(tile, ways.planes);
+        WHOLE_OR_PART(meetPlaneLanes, tile, ways.planes);
     /* So far the surfaces' own normals are the same. */
     tile->flatNormals = &tile->normals;
     if ((ways.triangles | ways.others) != 0) {
@@ -389,7 +378,8 @@ void PATH(meetSurfaces)(TileLanes *tile)
         tile->flatNormals = &tile->ownNormals;
     }
     if (ways.triangles != 0)
-        meetTriangleLanes(tile, ways.triangles, &ways);
+        ways.triangles == ~0ull ? meetTriangleLanes(tile, ~0ull, true, &ways)
+                                : meetTriangleLanes(tile, ways.triangles, false, &ways);
     if (ways.others != 0)
         meetOtherLanes(tile, ways.others);
 }

@@ -12,17 +12,19 @@
 
 /* ---- Materials ---- */
 
-/* Give these lanes a material. */
-static void setMaterial(TileLanes *tile, uint64_t lanes, const Material *material)
+/* Write a material's numbers into these lanes; whole: into all. */
+static inline __attribute__((always_inline)) void writeMaterial(TileLanes *tile, uint64_t lanes, bool whole,
+                                                                const Material *material, Color3f own)
 {
-    const Scene *scene = tile->job->compiled->scene;
     MaskLanes mask;
     maskOfSet(lanes, &mask);
     Color3f diffuse = material->diffuse, specular = material->specular;
     double shininess = (double)material->shininess;
-    EACH_LANE(k)
-    {
-        bool mine = mask.v[k] != 0;
+    EACH_LANE(k) {
+        bool mine = whole || mask.v[k] != 0;
+        tile->colors.r[k] = mine ? own.r : tile->colors.r[k];
+        tile->colors.g[k] = mine ? own.g : tile->colors.g[k];
+        tile->colors.b[k] = mine ? own.b : tile->colors.b[k];
         tile->diffuse.r[k] = mine ? diffuse.r : tile->diffuse.r[k];
         tile->diffuse.g[k] = mine ? diffuse.g : tile->diffuse.g[k];
         tile->diffuse.b[k] = mine ? diffuse.b : tile->diffuse.b[k];
@@ -31,24 +33,32 @@ static void setMaterial(TileLanes *tile, uint64_t lanes, const Material *materia
         tile->specular.b[k] = mine ? specular.b : tile->specular.b[k];
         tile->shininess.v[k] = mine ? shininess : tile->shininess.v[k];
     }
+}
+
+/* Give these lanes a material; their colors begin with what it sends out by itself. */
+static void setMaterial(TileLanes *tile, uint64_t lanes, const Material *material)
+{
+    const Scene *scene = tile->job->compiled->scene;
+    Color3f own = addColors(multColors(material->ambient, scene->render.ambient), material->emission);
+    if (lanes == ~0ull)
+        writeMaterial(tile, lanes, true, material, own);
+    else
+        writeMaterial(tile, lanes, false, material, own);
+    if (material->pattern != NULL)
+        EACH_SET(k, lanes) {
+            Vector3D point = objectSpacePoint(tile->surfaces[k], laneVector(&tile->positions, k));
+            setLaneColor(&tile->diffuse, k, patternColor(material->pattern, point));
+        }
     ShadingModel model = materialModel(scene, material);
+    bool shines = !colorIsBlack(material->specular);
     if (model == MODEL_SIMPLE)
         tile->simple |= lanes;
     else if (!(colorIsBlack(material->reflection) && colorIsBlack(material->transmission)))
         tile->secondary |= lanes;
-    if (model == MODEL_PHONG && !colorIsBlack(specular))
+    if (model == MODEL_PHONG && shines)
         tile->phong |= lanes;
-    if (model == MODEL_BLINN_PHONG && !colorIsBlack(specular))
+    if (model == MODEL_BLINN_PHONG && shines)
         tile->blinn |= lanes;
-    Color3f own = addColors(multColors(material->ambient, scene->render.ambient), material->emission);
-    EACH_SET(k, lanes)
-    {
-        if (material->pattern != NULL)
-            setLaneColor(&tile->diffuse, k,
-                         patternColor(material->pattern,
-                                      objectSpacePoint(tile->surfaces[k], laneVector(&tile->positions, k))));
-        setLaneColor(&tile->colors, k, own);
-    }
 }
 
 /* Bring the materials into lanes, one material at a time: few tiles have many. */
@@ -66,7 +76,7 @@ static void gatherMaterials(TileLanes *tile)
         }
         MaskLanes same;
         EACH_LANE(k)
-        same.v[k] = tile->materials[k] == number ? -1 : 0;
+            same.v[k] = tile->materials[k] == number ? -1 : 0;
         uint64_t lanes = setOfMask(&same) & left;
         setMaterial(tile, lanes, &compiled->materials[number]);
         left &= ~lanes;
@@ -94,8 +104,7 @@ static void arriveFromPoint(const TileLanes *tile, const Light *light, int sampl
         color = scaleColor(color, 1.0 / lightSampleCount(light));
     bool fades = light->falloff == FALLOFF_INVERSE_SQUARE;
     int unusual = 0;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Vector3D il = subVectors(position, laneVector(&tile->positions, k));
         double squared = dot(il, il), distance = sqrt(squared);
         unusual |= !isUsualSquare(squared);
@@ -106,8 +115,7 @@ static void arriveFromPoint(const TileLanes *tile, const Light *light, int sampl
             setLaneColor(&arriving->colors, k, color);
     }
     if (unusual)
-        EACH_SET(k, tile->met)
-        {
+        EACH_SET(k, tile->met) {
             ArrivingLight exact = lightArriving(light, sample, laneVector(&tile->positions, k));
             setLaneVector(&arriving->directions, k, exact.direction);
             setLaneColor(&arriving->colors, k, exact.color);
@@ -120,16 +128,14 @@ static void arrive(const TileLanes *tile, const Light *light, int sample, LightL
         arriveFromPoint(tile, light, sample, arriving);
     } else {
         ArrivingLight exact = {.direction = {0, 0, 0}};
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             if (light->kind != LIGHT_DIRECTIONAL || k == 0)
                 exact = lightArriving(light, sample, laneVector(&tile->positions, k));
             setLaneVector(&arriving->directions, k, exact.direction);
             setLaneColor(&arriving->colors, k, exact.color);
         }
     }
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Vector3D l = laneVector(&arriving->directions, k), flat = laneVector(tile->flatNormals, k);
         Color3f c = laneColor(&arriving->colors, k);
         double cosine = dot(laneVector(&tile->normals, k), l);
@@ -181,8 +187,7 @@ static uint64_t endlessShadows(const TileLanes *tile, const LightLanes *arriving
         MaskLanes unsure;
         /* With the end's sign turned to above, both are above. */
         double sign = end < 0 ? -1 : 1, ends = end * sign;
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             Vector3D start = laneVector(&arriving->starts, k);
             double side = (dot(normal, start) - height) * sign;
             double startSize = largestCoordinate(start) + size;
@@ -191,8 +196,7 @@ static uint64_t endlessShadows(const TileLanes *tile, const LightLanes *arriving
         }
         doubtful |= setOfMask(&unsure) & lit;
     }
-    EACH_SET(k, doubtful)
-    {
+    EACH_SET(k, doubtful) {
         ShadowRay shadow = laneShadow(arriving, light, k);
         if (endlessBlocks(compiled, &shadow))
             lit &= ~(1ull << k);
@@ -223,7 +227,7 @@ static double sumOfLanes(const double *values, const MaskLanes *mask)
 {
     NumberLanes counted;
     EACH_LANE(k)
-    counted.v[k] = mask->v[k] != 0 ? values[k] : 0;
+        counted.v[k] = mask->v[k] != 0 ? values[k] : 0;
     const D4 *fours = (const D4 *)counted.v;
     D4 sum[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
     for (int i = 0; i < LANES / 4; i += 2) {
@@ -255,8 +259,7 @@ typedef struct FloatLanes {
 static void placeCentral(const ShadowFrame *frame, const LightLanes *arriving, FloatLanes *floats)
 {
     double originSize = largestCoordinate(frame->origin), scale = frame->scale;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Vector3D start = laneVector(&arriving->starts, k), from = subVectors(start, frame->origin);
         double depth = dot(from, frame->z), inverse = 1 / depth;
         double size = largestCoordinate(start), noise = 1e-9 * (originSize + size);
@@ -276,8 +279,7 @@ static void placeCentral(const ShadowFrame *frame, const LightLanes *arriving, F
 static void placeParallel(const ShadowFrame *frame, const LightLanes *arriving, FloatLanes *floats)
 {
     double scale = frame->scale;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Vector3D start = laneVector(&arriving->starts, k), from = subVectors(start, frame->origin);
         double depth = dot(from, frame->z), u = dot(from, frame->x) * scale, v = dot(from, frame->y) * scale;
         double slack = 1e-6 * fabs(depth) + 1e-14 * largestCoordinate(start);
@@ -368,16 +370,14 @@ static uint64_t castShadows(TileLanes *tile, const Light *light, int sample, uin
             __builtin_memcpy(&open, tile->bundle.active, sizeof open);
             lit = alone | (together & open);
         }
-        EACH_SET(k, alone)
-        {
+        EACH_SET(k, alone) {
             ShadowRay shadow = laneShadow(arriving, &itself, k);
             if (compiled->path->blockRay(compiled, &shadow))
                 lit &= ~(1ull << k);
         }
     }
     if (compiled->transparentCount > 0)
-        EACH_SET(k, lit)
-        {
+        EACH_SET(k, lit) {
             ShadowRay shadow = laneShadow(arriving, &itself, k);
             Color3f color =
                 lightThroughObjects(compiled->scene, compiled->transparent, compiled->transparentCount,
@@ -395,8 +395,7 @@ static uint64_t castShadows(TileLanes *tile, const Light *light, int sample, uin
 static void addDiffuse(const TileLanes *tile, const LightLanes *arriving, const MaskLanes *reached,
                        ColorLanes *sum)
 {
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         double cosine = arriving->cosines.v[k];
         Color3f term = multColors(scaleColor(laneColor(&tile->diffuse, k), cosine > 0 ? cosine : 0),
                                   laneColor(&arriving->colors, k));
@@ -415,26 +414,25 @@ static void raiseToShininess(const TileLanes *tile, uint64_t lanes, const Number
         double shininess = tile->shininess.v[__builtin_ctzll(lanes)];
         MaskLanes same;
         EACH_LANE(k)
-        same.v[k] = tile->shininess.v[k] == shininess ? -1 : 0;
+            same.v[k] = tile->shininess.v[k] == shininess ? -1 : 0;
         if (isWholeShininess(shininess)) {
             /* wholePower, its loop outside that over lanes. */
             NumberLanes squares, products;
-            EACH_LANE(k)
-            {
+            EACH_LANE(k) {
                 squares.v[k] = cosines->v[k];
                 products.v[k] = 1;
             }
             for (int left = (int)shininess; left != 0; left >>= 1) {
                 if ((left & 1) != 0)
-                    EACH_LANE(k) products.v[k] *= squares.v[k];
+                    EACH_LANE(k)
+                        products.v[k] *= squares.v[k];
                 EACH_LANE(k)
-                squares.v[k] *= squares.v[k];
+                    squares.v[k] *= squares.v[k];
             }
             EACH_LANE(k)
-            powers->v[k] = same.v[k] != 0 ? products.v[k] : powers->v[k];
+                powers->v[k] = same.v[k] != 0 ? products.v[k] : powers->v[k];
         } else {
-            EACH_LANE(k)
-            {
+            EACH_LANE(k) {
                 double raised = power(cosines->v[k], shininess);
                 powers->v[k] = same.v[k] != 0 ? raised : powers->v[k];
             }
@@ -450,8 +448,7 @@ static void addPowers(const TileLanes *tile, const LightLanes *arriving, NumberL
     MaskLanes counts;
     maskOfSet(lanes, &counts);
     NumberLanes powers;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         counts.v[k] = cosines->v[k] > 0 ? counts.v[k] : 0;
         cosines->v[k] = cosines->v[k] > 0 ? cosines->v[k] : 0;
         powers.v[k] = 0;
@@ -460,8 +457,7 @@ static void addPowers(const TileLanes *tile, const LightLanes *arriving, NumberL
     if (lanes == 0)
         return;
     raiseToShininess(tile, lanes, cosines, &powers);
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Color3f term = scaleColor(laneColor(&arriving->colors, k), powers.v[k]);
         bool adds = counts.v[k] != 0;
         sum->r[k] += adds ? term.r : 0;
@@ -476,8 +472,7 @@ static void addHighlights(const TileLanes *tile, const LightLanes *arriving, uin
 {
     NumberLanes cosines;
     if ((reached & tile->phong) != 0) {
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             Vector3D l = laneVector(&arriving->directions, k), n = laneVector(&tile->normals, k);
             Vector3D v = multVector(laneVector(&tile->directions, k), -1);
             cosines.v[k] = dot(reflect(multVector(l, -1), n), v);
@@ -485,8 +480,7 @@ static void addHighlights(const TileLanes *tile, const LightLanes *arriving, uin
         addPowers(tile, arriving, &cosines, reached & tile->phong, sum);
     }
     if ((reached & tile->blinn) != 0) {
-        EACH_LANE(k)
-        {
+        EACH_LANE(k) {
             Vector3D l = laneVector(&arriving->directions, k), n = laneVector(&tile->normals, k);
             Vector3D v = multVector(laneVector(&tile->directions, k), -1);
             cosines.v[k] = blinnCosine(n, l, v);
@@ -500,8 +494,7 @@ static void shadeLights(TileLanes *tile)
 {
     const Scene *scene = tile->job->compiled->scene;
     ColorLanes diffuse, highlight;
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         setLaneColor(&diffuse, k, createColor(0, 0, 0));
         setLaneColor(&highlight, k, createColor(0, 0, 0));
     }
@@ -529,8 +522,7 @@ static void shadeLights(TileLanes *tile)
                 addHighlights(tile, &arriving, reached, &highlight);
         }
     }
-    EACH_LANE(k)
-    {
+    EACH_LANE(k) {
         Color3f own = laneColor(&tile->colors, k);
         Color3f term = multColors(laneColor(&tile->specular, k), laneColor(&highlight, k));
         setLaneColor(&tile->colors, k, addColors(addColors(own, laneColor(&diffuse, k)), term));
@@ -554,8 +546,7 @@ static void shadeSingly(TileLanes *tile)
 {
     const TileJob *job = tile->job;
     const SurfaceFinder *finder = &job->compiled->finder;
-    EACH_SET(k, tile->simple | tile->secondary)
-    {
+    EACH_SET(k, tile->simple | tile->secondary) {
         SurfacePoint point = lanePoint(tile, k);
         Ray ray = createRay(laneVector(&tile->origins, k), laneVector(&tile->directions, k));
         Media media = cameraMedia(job, &ray);
@@ -574,13 +565,13 @@ static void shadeSingly(TileLanes *tile)
 void PATH(shadeSurfaces)(TileLanes *tile)
 {
     const Scene *scene = tile->job->compiled->scene;
-    EACH_LANE(k)
-    {
-        setLaneColor(&tile->colors, k, createColor(0, 0, 0));
-        setLaneColor(&tile->diffuse, k, createColor(0, 0, 0));
-        setLaneColor(&tile->specular, k, createColor(0, 0, 0));
-        tile->shininess.v[k] = 1;
-    }
+    if (tile->met != ~0ull)
+        EACH_LANE(k) {
+            setLaneColor(&tile->colors, k, createColor(0, 0, 0));
+            setLaneColor(&tile->diffuse, k, createColor(0, 0, 0));
+            setLaneColor(&tile->specular, k, createColor(0, 0, 0));
+            tile->shininess.v[k] = 1;
+        }
     gatherMaterials(tile);
     shadeLights(tile);
     if ((tile->simple | tile->secondary) != 0)
@@ -588,14 +579,22 @@ void PATH(shadeSurfaces)(TileLanes *tile)
 
     /* Add what lies behind and between. */
     uint64_t missed = tile->inPicture & ~tile->met;
-    EACH_SET(k, missed)
-    {
+    if (missed != 0 && !scene->background.isGradient) {
+        MaskLanes mask;
+        maskOfSet(missed, &mask);
+        Color3f color = scene->background.bottom;
+        EACH_LANE(k) {
+            tile->colors.r[k] = mask.v[k] != 0 ? color.r : tile->colors.r[k];
+            tile->colors.g[k] = mask.v[k] != 0 ? color.g : tile->colors.g[k];
+            tile->colors.b[k] = mask.v[k] != 0 ? color.b : tile->colors.b[k];
+        }
+    }
+    EACH_SET(k, scene->background.isGradient ? missed : 0) {
         Ray ray = createRay(laneVector(&tile->origins, k), laneVector(&tile->directions, k));
         setLaneColor(&tile->colors, k, backgroundColor(&scene->background, &ray));
     }
     if (scene->fog.distance > 0)
-        EACH_SET(k, tile->inPicture)
-        {
+        EACH_SET(k, tile->inPicture) {
             bool isMissed = (missed >> k & 1) != 0;
             setLaneColor(&tile->colors, k,
                          throughFog(&scene->fog, laneColor(&tile->colors, k),
