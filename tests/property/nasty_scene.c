@@ -238,8 +238,7 @@ static void addThing(Chance *chance, Scene *scene, bool isLeftOut)
         made.mesh = (Mesh){material(chance), data};
         made.transform = transform(chance, scene, 0.3);
     } else if (kind < 0.42) {
-        made = solid(chance, scene);
-        made.transform = transform(chance, scene, 0.2);
+        made = solid(chance, scene); /* has no transform of its own: its parts do */
     } else {
         made = simpleObject(chance);
         made.transform = transform(chance, scene, made.kind == SHAPE_TORUS ? 1 : 0.15);
