@@ -11,7 +11,7 @@
 #include "engine/referee.h"
 
 enum {
-    FEW_RAYS = 16
+    FEW_RAYS = 8
 };
 
 static ShadowRay exactShadow(const Bundle *bundle, int lane)
