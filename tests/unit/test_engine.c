@@ -2,6 +2,7 @@
  * on each instruction set there is and with one thread and three. */
 #include "both_engines.h"
 #include "loaded_scene.h"
+#include "random_shapes.h"
 #include "shapes/mesh.h"
 
 #include <setjmp.h>
@@ -502,6 +503,44 @@ static void slivers(void **state)
     freeScene(&scene);
 }
 
+/* Their planes are known far worse than their corners: what is nearest, or behind the eye, is hard to tell.
+ */
+static void bundleOfSlivers(void **state)
+{
+    (void)state;
+    enum {
+        SLIVERS = 400
+    };
+    for (int projection = 0; projection < 2; projection++)
+        for (int power = -4; power <= -2; power++) {
+            MeshData *mesh = calloc(1, sizeof *mesh);
+            mesh->vertices = calloc(3 * SLIVERS, sizeof *mesh->vertices);
+            mesh->triangles = calloc(SLIVERS, sizeof *mesh->triangles);
+            double thickness = pow(10, power);
+            for (uint32_t i = 0; i < SLIVERS; i++) {
+                Vector3D middle = randomVector(thickness), along = randomDirection();
+                mesh->vertices[3 * i] = addVectors(middle, along);
+                mesh->vertices[3 * i + 1] = subVectors(middle, along);
+                mesh->vertices[3 * i + 2] =
+                    addVectors(randomVector(thickness), multVector(along, randomIn(-1, 1)));
+                mesh->triangles[i] = (MeshTriangle){{3 * i, 3 * i + 1, 3 * i + 2}, {0, 0, 0}};
+            }
+            mesh->vertexCount = 3 * SLIVERS;
+            mesh->triangleCount = SLIVERS;
+            Status status = buildMesh(mesh);
+            assert_true(statusIsOk(&status));
+            Scene scene = createScene();
+            assert_true(keepMeshInScene(&scene, mesh));
+            addObjectToScene(&scene, (Object){.kind = SHAPE_MESH, .mesh = {gray(1), mesh}});
+            addLamp(&scene, 0.1 * thickness, thickness, 0);
+            scene.camera.projection = projection ? PROJECTION_ORTHOGRAPHIC : PROJECTION_PERSPECTIVE;
+            scene.camera.viewHeight = 4 * thickness;
+            scene.camera.position.z = 0.5 * thickness;
+            assertAgreementAt("a bundle of slivers", &scene, 64, 64);
+            freeScene(&scene);
+        }
+}
+
 static void extremeSizes(void **state)
 {
     (void)state;
@@ -587,6 +626,7 @@ int main(void)
         cmocka_unit_test(touchingSpheres),
         cmocka_unit_test(gridOfTriangles),
         cmocka_unit_test(slivers),
+        cmocka_unit_test(bundleOfSlivers),
         cmocka_unit_test(extremeSizes),
         cmocka_unit_test(farHorizons),
     };

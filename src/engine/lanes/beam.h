@@ -333,7 +333,9 @@ static inline void setUpTriangles(bool isParallel, float slopeRoot, F8 p[3][3], 
     f8Store(local->edgeMargin,
             f8Select(unsure, f8Set(INFINITY), f8Set(3 * slopeRoot) * d * longest + f8Set(1e-36f)));
     f8Store(local->depthMargin, f8Select(unsure, f8Set(INFINITY), normalError * f8Set(slopeRoot)));
-    f8Store(local->depthScale, length);
+    /* The normal is wrong by some roundings of the product of two sides, 8 x 2^-24 L^2, which up to L from
+     * the corner turns the plane away by more than d where the triangle is thin. */
+    f8Store(local->depthScale, f8MultAdd(longest * longest, f8Set(0x1p-22f) * longest / d, length));
     f8Store(local->error, d);
     F8 inverse = one / (isParallel ? normal[2] : height);
     for (int k = 0; k < 3; k++)
