@@ -1,10 +1,10 @@
 /* Memory that runs out: whichever allocation of loading a scene fails, the result is an I/O error or, where
  * only a hint is lost, the right one; nothing crashes, nothing leaks.
  *
- * The allocator is replaced by one that fails at the n-th call, for every n. That needs glibc's own names
- * for its allocator and no sanitizer, which brings an allocator itself; elsewhere the test skips.
+ * Every allocation of the load fails once; see failing_memory.h.
  */
 #include "base/files.h"
+#include "failing_memory.h"
 #include "scene/load.h"
 
 #include <setjmp.h>
@@ -16,69 +16,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-#if defined(__has_feature)
-#define SANITIZED __has_feature(address_sanitizer)
-#elif defined(__SANITIZE_ADDRESS__)
-#define SANITIZED 1
-#else
-#define SANITIZED 0
-#endif
-
-#if defined(__GLIBC__) && !SANITIZED && !defined(__SANITIZE_ADDRESS__)
-#define CAN_FAIL 1
-
-extern void *__libc_malloc(size_t size);
-extern void *__libc_calloc(size_t count, size_t size);
-extern void *__libc_realloc(void *memory, size_t size);
-extern void __libc_free(void *memory);
-
-static bool armed;
-static long allowed; /* allocations that still succeed while armed */
-static long blocks;  /* allocated and not freed */
-
-static bool mayAllocate(void)
-{
-    if (armed && allowed == 0)
-        return false;
-    allowed -= armed;
-    return true;
-}
-
-void *malloc(size_t size)
-{
-    void *memory = mayAllocate() ? __libc_malloc(size) : NULL;
-    blocks += memory != NULL;
-    return memory;
-}
-
-void *calloc(size_t count, size_t size)
-{
-    void *memory = mayAllocate() ? __libc_calloc(count, size) : NULL;
-    blocks += memory != NULL;
-    return memory;
-}
-
-void *realloc(void *memory, size_t size)
-{
-    if (!mayAllocate())
-        return NULL;
-    void *moved = __libc_realloc(memory, size);
-    blocks += memory == NULL && moved != NULL;
-    return moved;
-}
-
-void free(void *memory)
-{
-    blocks -= memory != NULL;
-    __libc_free(memory);
-}
-
-#else
-#define CAN_FAIL 0
-static bool armed;
-static long allowed, blocks;
-#endif
 
 /* Files, transforms, patterns, groups and solids, all right. */
 static const char everything[] =
