@@ -609,6 +609,42 @@ static void farHorizons(void **state)
         }
 }
 
+/* A wall so far away, square to the view, that what is behind the eye still throws its shadow on it. */
+static void farWalls(void **state)
+{
+    (void)state;
+    static const double distances[] = {1e8, 1e14, 1e20, 1e30, 1e40, 1e100};
+    for (size_t i = 0; i < sizeof distances / sizeof *distances; i++)
+        for (int kind = 0; kind < 4; kind++) {
+            Scene scene = createScene();
+            if (kind % 2 == 0)
+                scene.camera.projection = PROJECTION_ORTHOGRAPHIC;
+            scene.camera.viewHeight = 8;
+            scene.camera.fov = 1e-4;
+            addPlaneToScene(&scene,
+                            createPlane(createVector(0, 0, -distances[i]), createVector(0, 0, 1), gray(0.4)));
+            for (int s = 0; s < 40; s++)
+                addSphereToScene(&scene,
+                                 createSphere(createVector(s % 8 - 4, s % 5 - 2, 6 + s), 0.4, gray(0.9)));
+            addMesh(&scene, "v -3 -3 3\nv 3 -3 3.5\nv 0 -1 4\nv -3 1 3\nv 0 2 3\nf 1 2 3\nf 1 3 4\nf 3 5 4\n",
+                    gray(0.1));
+            addCubeToScene(&scene, createCube(createVector(2, 2, 3), 1, gray(0.5)));
+            if (kind < 2)
+                addLightToScene(&scene, (Light){.kind = LIGHT_DIRECTIONAL,
+                                                .direction = {0, 0, -1},
+                                                .color = createColor(1, 1, 1),
+                                                .falloff = FALLOFF_NONE});
+            else
+                addLamp(&scene, 0, 0, 60);
+            char name[60];
+            snprintf(name, sizeof name, "a wall at %g, kind %d", distances[i], kind);
+            assertAgreement(name, &scene);
+            scene.objects[0].plane.material.reflection = createColor(1, 1, 1);
+            assertAgreement(name, &scene);
+            freeScene(&scene);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -629,6 +665,7 @@ int main(void)
         cmocka_unit_test(bundleOfSlivers),
         cmocka_unit_test(extremeSizes),
         cmocka_unit_test(farHorizons),
+        cmocka_unit_test(farWalls),
     };
     return cmocka_run_group_tests(tests, findPaths, NULL);
 }

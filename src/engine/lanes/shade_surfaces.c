@@ -217,7 +217,7 @@ static void frameRound(Vector3D z, Vector3D *x, Vector3D *y)
  * depth is then no small difference. */
 static const double LEAST_COSINE = 0.1;
 /* From a light farther away than this, in the size of the scene, floats would tell little. */
-static const double FARTHEST_LIGHT = 1024;
+static const float FARTHEST_LIGHT = 1024;
 
 typedef double D4 __attribute__((vector_size(32)));
 
@@ -319,7 +319,7 @@ static uint64_t bundleShadows(TileLanes *tile, const LightLanes *arriving, const
     }
     frame.z = multVector(toLight, -1);
     frameRound(frame.z, &frame.x, &frame.y);
-    if (!(largestCoordinate(frame.origin) * frame.scale < FARTHEST_LIGHT))
+    if (!(largestCoordinate(frame.origin) * frame.scale < (double)FARTHEST_LIGHT))
         return lit;
     setBundleFrame(bundle, tile->job->compiled, frame.origin, frame.x, frame.y, frame.z);
     bundle->startDepth = bundle->isParallel ? -1e30f : 0;
@@ -346,6 +346,9 @@ static uint64_t bundleShadows(TileLanes *tile, const LightLanes *arriving, const
         bundle->primitives[p] = i8Select(leaves, *(const I8 *)&tile->ownPrimitives[8 * p], nothing);
         bundle->active[p] = (uint8_t)(together >> 8 * p);
     }
+    /* Nor would they of a point so far away that the margins leave the range of a float. */
+    if (!(f8Largest(largest) < FARTHEST_LIGHT))
+        return lit;
     bundle->largest += f8Largest(largest);
     return alone;
 }

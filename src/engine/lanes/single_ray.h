@@ -43,7 +43,14 @@ static inline FloatRay createFloatRay(const CompiledScene *compiled, const Ray *
         double left = largestCoordinate(origin), rounding = 0x1p-46 * size;
         if (left > 2 * TREE_RADIUS + rounding)
             made.limit = -INFINITY;
-        made.errorBase = (float)(rounding < 1 ? rounding : 1e30);
+        made.errorBase = (float)rounding;
+        if (!(rounding < 1)) {
+            /* From so far away floats tell nothing: with this error, whose square is still a float, anything
+             * may be met. */
+            origin = createVector(0, 0, 0);
+            made.skipped = 0;
+            made.errorBase = 1e15f;
+        }
     }
     const double origins[3] = {origin.x, origin.y, origin.z}, directions[3] = {d.x, d.y, d.z};
     float largest = 0;
