@@ -50,7 +50,7 @@ compileTool "$includes" bench/yaml_parse.c "$library"
 if echo '#include <embree3/rtcore.h>' | ${CC:-cc} -E - >/dev/null 2>&1; then
     compileTool "$cflags" bench/peers/embree_peer.c -lembree3
 fi
-compileTool "$includes" bench/peers/scene_bytes.c "$library"
+compileTool "$includes" bench/peers/engine_frames.c "$library"
 
 # Numbers of a part of the table, of a small picture or without a peer are not the ones to commit.
 results=${RESULTS-}

@@ -5,7 +5,7 @@
                      [--results FILE] [SCENE...]
 
 bench/peers.sh calls it. FOLDER has what that script compiled: same_picture, yaml_parse, and where they could be
-compiled embree_peer and scene_bytes. SCENE is flakeDEPTH, rndCOUNT, meshCOUNT (a count may end in k or m), `course` for
+compiled embree_peer and engine_frames. SCENE is flakeDEPTH, rndCOUNT, meshCOUNT (a count may end in k or m), `course` for
 the handout's scenes, `4k` for one of them at 3840x2160; all that the table has by default.
 
 In each round everybody draws, one after the other, so that what else the machine does hits all of them. The least of
@@ -26,6 +26,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 THREADS = 2  # of every renderer; embree_peer has it built in
 SLOW, SLOW_ROUNDS = 5, 2  # what takes longer than SLOW seconds is run in so many rounds only
+FRAMES = 5
 OUR_RUNS = 3  # in each round, while they take less than SLOW seconds together; embree_peer draws five frames
 COURSE_ROUNDS = 3
 
@@ -121,6 +122,7 @@ class Bench:
         self.rows = []
         self.failures = []
         self.versions = {}
+        self.bytes = {}
         self.peers = []
         open(os.path.join(self.folder, "empty.ini"), "w").close()
 
@@ -182,8 +184,14 @@ class Bench:
             print("%s: %s" % (scene, failure), flush=True)
             self.failures.append((scene, renderer))
 
+    def renderFrames(self, scene, threads):
+        _, said = run([self.tool("engine_frames"), scene + ".yaml", str(threads), str(FRAMES)], self.folder)
+        result = json.loads(said)
+        self.bytes[scene] = result["bytes"]
+        return {part: result[part] for part in ("compile", "trace")}
+
     def drawOurs(self, scene, threads):
-        renderer = "ours" if threads == THREADS else "ours on 1 thread"
+        renderer = "ours"
         spent, drawn = 0, 0
         while drawn < OUR_RUNS and spent < SLOW and (scene, renderer) not in self.failures:
             before = time.perf_counter()
@@ -201,9 +209,10 @@ class Bench:
             "tachyon": lambda: self.renderTachyon(scene),
         }
         self.drawOurs(scene, THREADS)
+        self.attempt(scene, "frames", "trace", lambda: self.renderFrames(scene, THREADS), rounds)
         for peer in self.peers:
             self.attempt(scene, peer, "trace", draw[peer], rounds)
-        self.drawOurs(scene, 1)
+        self.attempt(scene, "frames on 1 thread", "trace", lambda: self.renderFrames(scene, 1), rounds)
         if scene == "rnd1m":
             self.attempt(scene, "libyaml", "whole",
                          lambda: {"whole": run([self.tool("yaml_parse"), scene + ".yaml"], self.folder)[0]}, rounds)
@@ -270,33 +279,31 @@ class Bench:
         self.addRow(row, scene or below[0], top / bottom, "times", median=median, **target)
 
     def addSceneRows(self, scenes):
-        def eachScene(row, peer, part, target):
+        def eachScene(row, peer, part, target, ours="ours"):
             for scene in scenes:
-                self.addRatio(row, (scene, peer, part), (scene, "ours", part),
+                self.addRatio(row, (scene, peer, part), (scene, ours, part),
                               at_least=TARGETS.get(scene, {}).get(target))
 
-        eachScene("trace: Embree / ours", "embree", "trace", "embree")
+        eachScene("trace: Embree / ours", "embree", "trace", "embree", "frames")
         eachScene("trace: POV-Ray / ours", "povray", "trace", "povray")
         eachScene("trace: Tachyon / ours", "tachyon", "trace", "tachyon")
         eachScene("whole process: POV-Ray / ours", "povray", "whole", "povray whole")
         for scene in scenes:
-            self.addRatio("trace: one thread / two", (scene, "ours on 1 thread", "trace"), (scene, "ours", "trace"),
+            self.addRatio("trace: one thread / two", (scene, "frames on 1 thread", "trace"), (scene, "frames", "trace"),
                           at_least=1.9)
         if "rnd1m" in scenes:
             self.addRatio("whole process: ours / libyaml's parse", ("rnd1m", "ours", "whole"),
                           ("rnd1m", "libyaml", "whole"), at_most=1.7)
-            self.addRatio("compile: ours / Embree's build", ("rnd1m", "ours", "compile"), ("rnd1m", "embree", "build"),
+            self.addRatio("compile: ours / Embree's build", ("rnd1m", "frames", "compile"), ("rnd1m", "embree", "build"),
                           at_most=1.0)
             self.addBytesRow()
         if "rnd1m" in scenes and "rnd100k" in scenes:
-            self.addRatio("trace: rnd1m / rnd100k", ("rnd1m", "ours", "trace"), ("rnd100k", "ours", "trace"),
+            self.addRatio("trace: rnd1m / rnd100k", ("rnd1m", "frames", "trace"), ("rnd100k", "frames", "trace"),
                           scene="rnd1m", at_most=1.8)
 
     def addBytesRow(self):
-        if not self.tool("scene_bytes"):
-            return
-        _, said = run([self.tool("scene_bytes"), "rnd1m.yaml"], self.folder)
-        self.addRow("compiled scene, bytes a sphere", "rnd1m", int(said) / 1e6, "bytes", at_most=100)
+        if "rnd1m" in self.bytes:
+            self.addRow("compiled scene, bytes a sphere", "rnd1m", self.bytes["rnd1m"] / 1e6, "bytes", at_most=100)
 
     def addCourseRow(self):
         """One row, of the scene where we are ahead by the least; the others are in the results."""
