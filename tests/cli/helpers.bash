@@ -131,10 +131,11 @@ END
     [ $# = 0 ] || printf '%s\n' "$@" >>"$file"
 }
 
-# A scene that takes many seconds to draw: thousands of spheres, all tried for each pixel.
+# A scene that takes many seconds to draw: hundreds of rays for each of its pixels.
 makeLongScene() { # FILE
     {
         echo 'image: {width: 2000, height: 1500}'
+        echo 'render: {samples: 16}'
         echo 'lights: [{point: {position: [0, 9, 0], color: 50}}]'
         echo 'objects:'
         awk 'BEGIN { for (i = 0; i < 3000; i++)

@@ -1,4 +1,5 @@
 /* draw_tile.c - the picture's pixels in one tile of 8 x 8; see path.h. */
+#include "base/cancel.h"
 #include "engine/lanes/tile_lanes.h"
 
 void PATH(drawTile)(const TileJob *job, int left, int top, uint32_t *lastBlocks, RayCounts *counts)
@@ -21,7 +22,7 @@ void PATH(drawTile)(const TileJob *job, int left, int top, uint32_t *lastBlocks,
     if (n > 1)
         EACH_LANE(k)
             setLaneVector(&sums, k, createVector(0, 0, 0));
-    for (int j = 0; j < n; j++)
+    for (int j = 0; j < n && !cancelRequested(); j++)
         for (int i = 0; i < n; i++) {
             PATH(aimRays)(&tile, left, top, (i + 0.5) / n, (j + 0.5) / n);
             PATH(meetSurfaces)(&tile);
