@@ -132,7 +132,7 @@ escape=$'\e'
     needs script
     makeLongScene s.yaml
     # Draw for two seconds, and stop.
-    bar() { onTerminal "$1 timeout -s INT 2 '$ECLAIRAGE' render s.yaml $2" || true; }
+    bar() { onTerminal "$1 timeout --foreground -s INT 2 '$ECLAIRAGE' render s.yaml $2" || true; }
     bar '' ''
     grep -qE 'rendering \[#*\.*\] +[0-9]+ %  .* left' "$out"
     # Erased at the end: what follows the last bar begins with the order to erase the line.
@@ -141,7 +141,7 @@ escape=$'\e'
     hasNoText "$out" rendering
     bar 'env TERM=dumb' ''
     hasNoText "$out" rendering
-    timeout -s INT 2 "$ECLAIRAGE" render s.yaml 2>"$err" || true
+    timeout --foreground -s INT 2 "$ECLAIRAGE" render s.yaml 2>"$err" || true
     hasNoText "$err" rendering
     makeScene short.yaml
     onTerminal "'$ECLAIRAGE' render short.yaml"
