@@ -192,7 +192,8 @@ static uint64_t endlessShadows(const TileLanes *tile, const LightLanes *arriving
             double side = (dot(normal, start) - height) * sign;
             double startSize = largestCoordinate(start) + size;
             double endMargin = 0x1p-30 * (isDirectional ? endSize : endSize + startSize);
-            unsure.v[k] = (side > 0x1p-46 * startSize) & (ends > endMargin) ? 0 : -1;
+            int clear = (side > 0x1p-46 * startSize) & (ends > endMargin);
+            unsure.v[k] = clear != 0 ? 0 : -1;
         }
         doubtful |= setOfMask(&unsure) & lit;
     }
