@@ -198,6 +198,24 @@ static HitWays sortHitLanes(TileLanes *tile)
     return ways;
 }
 
+/* Set a lane's vector where it is mine; else it stays. Without a branch. */
+static inline ALWAYS_INLINE void keepVector(VectorLanes *lanes, int k, bool mine, Vector3D v)
+{
+    lanes->x[k] = mine ? v.x : lanes->x[k];
+    lanes->y[k] = mine ? v.y : lanes->y[k];
+    lanes->z[k] = mine ? v.z : lanes->z[k];
+}
+
+/* Likewise all that is known of the point. */
+static inline ALWAYS_INLINE void keepPoint(TileLanes *tile, int k, bool mine, double distance, double offset,
+                                           Vector3D position, Vector3D normal)
+{
+    tile->distances.v[k] = mine ? distance : tile->distances.v[k];
+    tile->offsets.v[k] = mine ? offset : tile->offsets.v[k];
+    keepVector(&tile->positions, k, mine, position);
+    keepVector(&tile->normals, k, mine, normal);
+}
+
 static inline ALWAYS_INLINE void meetSphereLanes(TileLanes *tile, uint64_t lanes, bool whole)
 {
     /* Gather the spheres; other lanes get one that does no harm. */
@@ -230,14 +248,7 @@ static inline ALWAYS_INLINE void meetSphereLanes(TileLanes *tile, uint64_t lanes
         double offset = (largestCoordinate(ray.origin) + distance + own) * ROUNDING_MARGIN;
 
         bool mine = whole || mask.v[k] != 0;
-        tile->distances.v[k] = mine ? distance : tile->distances.v[k];
-        tile->offsets.v[k] = mine ? offset : tile->offsets.v[k];
-        tile->positions.x[k] = mine ? position.x : tile->positions.x[k];
-        tile->positions.y[k] = mine ? position.y : tile->positions.y[k];
-        tile->positions.z[k] = mine ? position.z : tile->positions.z[k];
-        tile->normals.x[k] = mine ? normal.x : tile->normals.x[k];
-        tile->normals.y[k] = mine ? normal.y : tile->normals.y[k];
-        tile->normals.z[k] = mine ? normal.z : tile->normals.z[k];
+        keepPoint(tile, k, mine, distance, offset, position, normal);
 
         /* From outside, a sphere does not hide the light from its own lit points: they are lifted off it by
          * more than any rounding (unless it is a speck beside its coordinates), and it is convex. */
@@ -275,14 +286,7 @@ static inline ALWAYS_INLINE void meetPlaneLanes(TileLanes *tile, uint64_t lanes,
         double offset = (largestCoordinate(ray.origin) + distance + magnitudes.v[k]) * ROUNDING_MARGIN;
 
         bool mine = whole || mask.v[k] != 0;
-        tile->distances.v[k] = mine ? distance : tile->distances.v[k];
-        tile->offsets.v[k] = mine ? offset : tile->offsets.v[k];
-        tile->positions.x[k] = mine ? position.x : tile->positions.x[k];
-        tile->positions.y[k] = mine ? position.y : tile->positions.y[k];
-        tile->positions.z[k] = mine ? position.z : tile->positions.z[k];
-        tile->normals.x[k] = mine ? normal.x : tile->normals.x[k];
-        tile->normals.y[k] = mine ? normal.y : tile->normals.y[k];
-        tile->normals.z[k] = mine ? normal.z : tile->normals.z[k];
+        keepPoint(tile, k, mine, distance, offset, position, normal);
     }
 }
 
@@ -324,17 +328,8 @@ static inline ALWAYS_INLINE void meetTriangleLanes(TileLanes *tile, uint64_t lan
         unusual.v[k] = isUsualSquare(squared) && fabs(slope) > RAY_TRIANGLE_PARALLEL ? 0 : -1;
 
         bool mine = whole || mask.v[k] != 0;
-        tile->distances.v[k] = mine ? distance : tile->distances.v[k];
-        tile->offsets.v[k] = mine ? offset : tile->offsets.v[k];
-        tile->positions.x[k] = mine ? position.x : tile->positions.x[k];
-        tile->positions.y[k] = mine ? position.y : tile->positions.y[k];
-        tile->positions.z[k] = mine ? position.z : tile->positions.z[k];
-        tile->normals.x[k] = mine ? normal.x : tile->normals.x[k];
-        tile->normals.y[k] = mine ? normal.y : tile->normals.y[k];
-        tile->normals.z[k] = mine ? normal.z : tile->normals.z[k];
-        tile->ownNormals.x[k] = mine ? flat.x : tile->ownNormals.x[k];
-        tile->ownNormals.y[k] = mine ? flat.y : tile->ownNormals.y[k];
-        tile->ownNormals.z[k] = mine ? flat.z : tile->ownNormals.z[k];
+        keepPoint(tile, k, mine, distance, offset, position, normal);
+        keepVector(&tile->ownNormals, k, mine, flat);
     }
     ways->others |= lanes & setOfMask(&unusual);
     EACH_LANE(k)

@@ -46,7 +46,7 @@ void PATH(meetRay)(const CompiledScene *compiled, const Ray *ray, Hit *hit, uint
         if (childKind(current) == LEAF_NODE) {
             const BvhNode *node = &compiled->nodes[childNumber(current)];
             F8 entries;
-            unsigned met = rayMeetsChildren(&floats, node, &entries);
+            unsigned met = rayMeetsBoxes(&floats, &node->min[0][0], &entries);
             if (met != 0 && (met & (met - 1)) == 0) {
                 current = node->children[__builtin_ctz(met)];
                 continue;

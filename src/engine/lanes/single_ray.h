@@ -76,10 +76,10 @@ static inline FloatRay createFloatRay(const CompiledScene *compiled, const Ray *
     return made;
 }
 
-/* The children of a node that the ray may meet, as bits, and where it enters them. */
-static inline unsigned rayMeetsChildren(const FloatRay *ray, const BvhNode *node, F8 *entries)
+/* The boxes, of a node's children or of a block of objects, that the ray may meet before its limit, as bits;
+ * and where it enters them. floats: as of a node. */
+static inline unsigned rayMeetsBoxes(const FloatRay *ray, const float *floats, F8 *entries)
 {
-    const float *floats = &node->min[0][0];
     F8 entry = f8Set(0), exit = f8Set(ray->limit);
     for (int k = 0; k < 3; k++) {
         F8 inverse = f8Set(ray->inverse[k]);
@@ -151,19 +151,6 @@ static inline unsigned rayMeetsTriangles(const FloatRay *ray, const TriangleBloc
     return maskBits(possible);
 }
 
-/* The objects of a block whose boxes the ray meets before its limit, as bits. */
-static inline unsigned rayMeetsObjects(const FloatRay *ray, const ObjectBlock *block)
-{
-    const float *floats = &block->min[0][0];
-    F8 entry = f8Set(0), exit = f8Set(ray->limit);
-    for (int k = 0; k < 3; k++) {
-        F8 inverse = f8Set(ray->inverse[k]);
-        entry = f8Max(entry, (f8Load(floats + ray->nearAt[k]) - f8Set(ray->nearOrigin[k])) * inverse);
-        exit = f8Min(exit, (f8Load(floats + ray->farAt[k]) - f8Set(ray->farOrigin[k])) * inverse);
-    }
-    return maskBits(entry <= exit * f8Set(1 + 1e-6f));
-}
-
 /* What the ray may meet in a leaf, as bits, and what it surely does; and the primitives they stand for. */
 static inline unsigned rayMeetsLeaf(const CompiledScene *compiled, const FloatRay *ray, uint32_t reference,
                                     float sureLimit, unsigned *sure, const int32_t **primitives)
@@ -179,7 +166,8 @@ static inline unsigned rayMeetsLeaf(const CompiledScene *compiled, const FloatRa
     default:
         *primitives = compiled->objectBlocks[number].primitives;
         *sure = 0;
-        return rayMeetsObjects(ray, &compiled->objectBlocks[number]);
+        F8 entries;
+        return rayMeetsBoxes(ray, &compiled->objectBlocks[number].min[0][0], &entries);
     }
 }
 
@@ -230,7 +218,7 @@ static inline bool blockSingleRay(const CompiledScene *compiled, const ShadowRay
         }
         const BvhNode *node = &compiled->nodes[childNumber(current)];
         F8 entries;
-        for (unsigned met = rayMeetsChildren(&ray, node, &entries); met != 0; met &= met - 1)
+        for (unsigned met = rayMeetsBoxes(&ray, &node->min[0][0], &entries); met != 0; met &= met - 1)
             stack[waiting++] = node->children[__builtin_ctz(met)];
     }
     return false;
