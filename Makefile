@@ -83,7 +83,7 @@ INSTALLER = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' tools/install-dependencies.sh
 # ---------------------------------------------------------------------------------------------------------
 
 LIBRARY_SOURCES := $(filter-out src/main.c,$(wildcard src/*.c)) \
-	$(wildcard src/base/*.c src/engine/*.c src/image/*.c src/patterns/*.c src/scene/*.c src/shapes/*.c povray/*.c \
+	$(wildcard src/base/*.c src/engine/*.c src/explain/*.c src/image/*.c src/patterns/*.c src/scene/*.c src/shapes/*.c povray/*.c \
 	compare/*.c)
 # These are compiled once for each path, that is each instruction set the fast engine can choose from.
 LANE_SOURCES := $(wildcard src/engine/lanes/*.c)
