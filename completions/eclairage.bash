@@ -25,6 +25,13 @@ _eclairage()
       mapfile -t COMPREPLY < <(compgen -d -- "$word")
       return
       ;;
+    --aov)
+      local given=''
+      [[ $word != *,* ]] || given=${word%,*},
+      compopt -o nospace 2>/dev/null
+      mapfile -t COMPREPLY < <(compgen -P "$given" -W 'normal depth id albedo ambient emission diffuse specular background reflection transmission shadow all' -- "${word##*,}")
+      return
+      ;;
     --width)
       return
       ;;
@@ -89,7 +96,7 @@ _eclairage()
   local options operands=
   case $command in
   render)
-    options='-o --output --width --height --model --samples --threads --engine --encoding --bit-depth --json -q --quiet --color -h --help --version'
+    options='-o --output --aov --width --height --model --samples --threads --engine --encoding --bit-depth --json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
     ;;
   pov)
@@ -97,7 +104,7 @@ _eclairage()
     operands='@(*.yaml|*.yml)'
     ;;
   compare)
-    options='--out --width --height --model --samples --threads --engine --encoding --bit-depth --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
+    options='--out --per-term --width --height --model --samples --threads --engine --encoding --bit-depth --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
     ;;
   diff)

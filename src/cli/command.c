@@ -10,13 +10,29 @@ const Command COMMANDS[] = {
      "eclairage render scene.yaml\tdraw scene.png\n"
      "eclairage render scene.yaml -o small.png --width 320\tsmaller\n"
      "eclairage render scene.yaml -o - | feh -\tto standard output\n"
-     "make-scene | eclairage render - -o made.png\tfrom standard input\n",
+     "make-scene | eclairage render - -o made.png\tfrom standard input\n"
+     "eclairage render scene.yaml --aov normal,depth\tscene-normal.png too\n",
      "Draws the scene and writes a PNG: the file given with -o, else SCENE.png beside "
      "the scene. A scene named - is standard input, and then -o is needed. "
      "What no option says is as the scene says.\n"
      "\n"
      "With --json the sizes, times and counts of rays go to standard output, so the "
-     "picture then needs a file.",
+     "picture then needs a file.\n"
+     "\n"
+     "--aov writes what else there is to say about each pixel, each to a PNG of its own, "
+     "beside the picture: of ball.png, ball-normal.png. Of the surface that the camera's ray meets first:\n"
+     "\n"
+     "  normal        (N + 1) / 2, N turned to the viewer; linear\n"
+     "  depth         distance along the ray, white the farthest; linear, 16 bits\n"
+     "  id            a colour for each object; --json names the objects\n"
+     "  albedo        the diffuse colour, with its pattern\n"
+     "  reflection    what the mirrored ray adds to the picture\n"
+     "  transmission  what the refracted ray adds to it\n"
+     "  shadow        the share of the lights before it that reach it\n"
+     "\n"
+     "And the terms, which add up to the picture: ambient, emission, diffuse, specular, "
+     "and background with the fog's own colour. Each is what is left when the others' "
+     "sources are zero; mirrors, glass, shadows and fog stay.",
      runRender},
     {COMMAND_POV, "pov", OPERANDS_SCENES, "SCENE.yaml", 1, 1, "write the equivalent POV-Ray scene",
      "eclairage pov scene.yaml\tshow the POV-Ray scene\n"
@@ -29,12 +45,18 @@ const Command COMMANDS[] = {
      "draw scenes with POV-Ray too, and compare",
      "eclairage compare scene.yaml\teclairage-report/index.html\n"
      "eclairage compare scenes/*.yaml --out report\tone report of all\n"
-     "eclairage compare scene.yaml --fail 0.001 --json\tstricter; as JSON\n",
+     "eclairage compare scene.yaml --fail 0.001 --json\tstricter; as JSON\n"
+     "eclairage compare scene.yaml --per-term\twhich term disagrees?\n",
      "Draws each scene twice, with this program and with POV-Ray, measures how far the "
      "two pictures lie apart (16 bits, linear) and judges by the limits under `compare` "
      "in the scene, which the options override. DIR gets index.html, a page that needs "
      "nothing else, results.json, and for each scene both pictures, their difference and "
-     "the .pov.",
+     "the .pov.\n"
+     "\n"
+     "With --per-term each term that a scene has (ambient, emission, diffuse, specular, "
+     "background) is drawn by both from a scene of its own and held to the same limits, "
+     "so the report says which term disagrees. A scene agrees when its picture and all "
+     "its terms do.",
      runCompare},
     {COMMAND_DIFF, "diff", OPERANDS_PICTURES, "A.png B.png", 2, 2, "compare two pictures",
      "eclairage diff mine.png reference.png\tdo they agree?\n"

@@ -75,6 +75,8 @@ struct Arguments {
     const char **operands;  /* owned */
     size_t operandCount;
     bool help, version, json, quiet;
+    bool perTerm;         /* --per-term */
+    unsigned aovs;        /* of --aov: a set of Aovs, one bit each */
     int color;            /* a ColorChoice */
     const char *output;   /* of -o; NULL: not given */
     const char *folder;   /* of --out; NULL: not given */

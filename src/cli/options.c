@@ -2,6 +2,7 @@
 #include "cli/options.h"
 
 #include "base/text.h"
+#include "explain/aov.h"
 #include "scene/suggest.h"
 
 #include <math.h>
@@ -22,6 +23,10 @@ const Option OPTIONS[] = {
      FIELD(output), .help = "write to FILE; - is standard output"},
     {"out", 0, COMMAND_COMPARE, VALUE_FOLDER, .placeholder = "DIR", FIELD(folder),
      .help = "write the report and the pictures to DIR (eclairage-report)"},
+    {"aov", 0, COMMAND_RENDER, VALUE_AOVS, .placeholder = "LIST", FIELD(aovs),
+     .help = "draw these as well, names with commas between, or all"},
+    {"per-term", 0, COMMAND_COMPARE, VALUE_NONE, FIELD(perTerm),
+     .help = "compare each term of the light as well; one that differs makes the scene differ"},
     {"width", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(width),
      .help = "draw N pixels wide; without --height the scene's aspect is kept"},
     {"height", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(height),
@@ -94,6 +99,47 @@ static Status readChoice(const Option *option, const char *given, const char *va
     return status;
 }
 
+static Status unknownAov(const char *given, const char *name, size_t length)
+{
+    Suggestion suggestion = {.word = name, .length = length};
+    Text names = {0};
+    for (Aov aov = 0; aov < AOV_COUNT; aov++) {
+        textAppendFormat(&names, "%s%s", aov == 0 ? "" : ", ", aovName(aov));
+        tryCandidate(&suggestion, aovName(aov));
+    }
+    Status status;
+    if (suggestion.best != NULL)
+        status = statusError(STATUS_USAGE, "%s has no '%.*s'; did you mean '%s'? There are %s and all", given,
+                             (int)length, name, suggestion.best, textString(&names));
+    else
+        status = statusError(STATUS_USAGE, "%s has no '%.*s'; there are %s and all", given, (int)length, name,
+                             textString(&names));
+    textFree(&names);
+    return status;
+}
+
+/* Read names with commas between them. */
+static Status readAovs(const char *given, const char *value, unsigned *set)
+{
+    *set = 0;
+    for (const char *name = value;; name++) {
+        size_t length = strcspn(name, ",");
+        unsigned found = length == 3 && strncmp(name, "all", 3) == 0 ? ALL_AOVS : 0;
+        for (Aov aov = 0; aov < AOV_COUNT; aov++)
+            if (strlen(aovName(aov)) == length && strncmp(aovName(aov), name, length) == 0)
+                found = 1u << aov;
+        if (length == 0)
+            return statusError(STATUS_USAGE, "%s needs names with one comma between them, not '%s'", given,
+                               value);
+        if (found == 0)
+            return unknownAov(given, name, length);
+        *set |= found;
+        name += length;
+        if (*name == '\0')
+            return statusOk();
+    }
+}
+
 /* Read a decimal number and nothing else: no spaces, hexadecimals, nan or inf. */
 static bool readNumber(const char *value, double *number)
 {
@@ -130,6 +176,8 @@ static Status storeValue(const Option *option, const char *given, const char *va
     }
     case VALUE_CHOICE:
         return readChoice(option, given, value, field);
+    case VALUE_AOVS:
+        return readAovs(given, value, field);
     case VALUE_FILE:
     case VALUE_FOLDER:
         if (*value == '\0')
@@ -360,6 +408,10 @@ static Status checkTogether(const Arguments *arguments)
     if (standardInputs == 1 && command->bit == COMMAND_RENDER && arguments->output == NULL)
         return statusError(STATUS_USAGE, "a scene from standard input (-) has no name to make that of the "
                                          "picture from: give one with -o FILE");
+    if (arguments->aovs != 0 && arguments->output != NULL && strcmp(arguments->output, "-") == 0)
+        return statusError(STATUS_USAGE,
+                           "--aov writes its pictures beside that of -o, and -o - has no name to "
+                           "make theirs from: give -o a file");
     if (arguments->json && arguments->output != NULL && strcmp(arguments->output, "-") == 0)
         return statusError(STATUS_USAGE, "-o - and --json would both write to standard output: "
                                          "give -o a file");
