@@ -116,16 +116,6 @@ for file in "${files[@]}"; do
     sed -n 's/^compare\t//p' "$list" >>"$out/scenes"
 done
 
-# A chapter must be in every language that is there.
-for file in "${files[@]}"; do
-    for language in en fr; do
-        other=$NOTES/$language/$(basename "$file")
-        if [ -d "$NOTES/$language" ] && [ ! -f "$other" ]; then
-            echo "$other: there is no such file, but there is $file" >>"$out/errors/missing"
-        fi
-    done
-done
-
 # All pairs in one run. A scene that is not there is told by its page.
 linkFolders "$work/compare"
 : >"$out/compared"
