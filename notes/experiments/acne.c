@@ -175,8 +175,8 @@ __attribute__((unused)) static Counts NAMED(countPoints)(const Scene *scene, dou
             REAL up = 2 * (REAL)tan(acos(-1) / 6);
             REAL direction[3] = {((REAL)x + (REAL)0.5 - WIDTH / 2) / HEIGHT * up,
                                  (HEIGHT / 2 - (REAL)0.5 - (REAL)y) / HEIGHT * up, -1};
-            REAL length = (REAL)sqrtl((long double)(direction[0] * direction[0] +
-                                                    direction[1] * direction[1] + 1));
+            REAL length =
+                (REAL)sqrtl((long double)(direction[0] * direction[0] + direction[1] * direction[1] + 1));
             const REAL origin[3] = {0, 0, 0};
             for (int i = 0; i < 3; i++)
                 direction[i] /= length;
