@@ -189,18 +189,30 @@ test:
 	@$(INSTALLER) build demo unit test
 	@MAKE='$(MAKE)' CC='$(CC)' BUILD='$(BUILD)' SANITIZE='$(SANITIZE)' VERSION='$(VERSION)' tools/run-tests.sh
 
+## notes: install what is missing, build, and make the teaching notes, build/notes/index.html, from their chapters
+notes:
+	@$(INSTALLER) build notes
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	@$(MAKE_NOTES) $(BUILD)/notes && echo 'Open $(BUILD)/notes/index.html in a browser.'
+
+## update-notes: make the notes and rewrite the numbers that they are expected to show
+update-notes: all
+	@$(MAKE_NOTES) --update $(BUILD)/notes
+	@git --no-pager diff --stat -- notes/numbers.csv
+MAKE_NOTES = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' ECLAIRAGE='$(BUILD)/eclairage' notes/make-notes.sh
+
 ## unit: build the unit tests; `CMOCKA_MESSAGE_OUTPUT=TAP build/tests/test_NAME` runs one
 unit: $(UNIT_TESTS)
 
 ## setup: install everything the tests can use, the browser's among it
 setup:
-	@$(INSTALLER) build demo unit test browser
+	@$(INSTALLER) build demo unit test browser notes
 
 ## lint: check the layout of the code, who includes whom, and the shell scripts
 lint:
 	@tools/check-format.sh
 	@tools/check-includes.sh
-	@if command -v shellcheck >/dev/null; then shellcheck tools/*.sh .ci/run $(wildcard tests/suites/*.sh) bench/peers.sh; \
+	@if command -v shellcheck >/dev/null; then shellcheck tools/*.sh .ci/run $(wildcard tests/suites/*.sh) bench/peers.sh notes/make-notes.sh; \
 	else echo 'shellcheck is not installed: the shell scripts were not checked.'; fi
 
 ## format: lay out all C files with clang-format 14
@@ -281,5 +293,5 @@ help:
 	@sed -n 's/^## \([A-Z][^ ]*\): /  \1:/p' $(firstword $(MAKEFILE_LIST)) | $(help-columns)
 
 .DEFAULT_GOAL := all
-.PHONY: all demo test unit setup lint format fuzz bench docs update-results install uninstall clean help FORCE
+.PHONY: all demo notes update-notes test unit setup lint format fuzz bench docs update-results install uninstall clean help FORCE
 .DELETE_ON_ERROR:

@@ -4,7 +4,7 @@
 #   tools/install-dependencies.sh PURPOSE...             install what is missing; prints nothing if nothing is
 #   tools/install-dependencies.sh --missing PURPOSE...   only say in one line what is missing, if anything
 #
-# Purposes: build, demo, unit, test, browser, bench (see the tables below). A thing counts as present when it works,
+# Purposes: build, demo, unit, test, browser, notes, bench (see the tables below). A thing counts as present when it works,
 # wherever it came from, so a compiler or node that apt knows nothing of is left alone. Optional things only
 # add tests or benchmarks: without them these are skipped, aloud. CC and PKG_CONFIG name the programs to use.
 
@@ -56,6 +56,11 @@ need_browser() {
     suggest chromium chromiumExists
     suggest nodejs has node
     suggest npm has npm
+}
+need_notes() {
+    require pandoc has pandoc
+    require jq has jq
+    require povray has povray
 }
 
 need_bench() {
@@ -110,7 +115,7 @@ fi
 purposes=$*
 for purpose in $purposes; do
     case $purpose in
-    build | demo | unit | test | browser | bench) ;;
+    build | demo | unit | test | browser | notes | bench) ;;
     *)
         echo "install-dependencies.sh: there is no purpose '$purpose'." >&2
         exit 2
