@@ -6,7 +6,8 @@
 
 Hypothesis neutralHypothesis(void)
 {
-    return (Hypothesis){.view = neutralViewChange(), .value = neutralValueChange()};
+    return (Hypothesis){
+        .view = neutralViewChange(), .light = neutralLightChange(), .value = neutralValueChange()};
 }
 
 /* ---- Numbers to try ---- */
@@ -22,6 +23,8 @@ static const double STRETCHES[] = {0.45, 0.5,   0.5625, 0.625,  0.6875, 0.75, 0.
                                    1.05, 1.125, 1.25,   1.3333, 1.5,    1.6,  1.7778, 2,     2.2};
 static const double EXPONENTS[] = {0, 0.5, 1, 1.5, 2.5, 3, 4};
 static const double SHININESS_FACTORS[] = {1 / 16., 1 / 8., 1 / 4., 1 / 2., 0.7, 0.85, 1.2, 1.4, 2, 4, 8, 16};
+static const double AMBIENTS[] = {0, 0.25, 0.5, 0.75, 1.5, 2, 3, 5};
+static const double LIGHT_FACTORS[] = {0, 0.1, 0.25, 0.5, 0.75, 1.25, 1.5, 2, 3, 5, 10};
 static const double SHININESSES[] = {1, 2, 5, 10, 20, 40, 80, 160, 320};
 
 /* ---- Values ---- */
@@ -343,19 +346,44 @@ static void tellNegative(const Trait *trait, double number, const Scene *scene, 
                          : "the highlight is added for lights behind the surface too");
 }
 
-static void applyNoAmbient(const Trait *trait, double number, Hypothesis *hypothesis)
+static void applyAmbientScale(const Trait *trait, double number, Hypothesis *hypothesis)
 {
     (void)trait;
-    (void)number;
-    hypothesis->light.noAmbient = true;
+    hypothesis->light.ambientScale = number;
 }
 
-static void tellNoAmbient(const Trait *trait, double number, const Scene *scene, Text *text)
+static void tellAmbientScale(const Trait *trait, double number, const Scene *scene, Text *text)
 {
     (void)trait;
-    (void)number;
     (void)scene;
-    textAppend(text, "the ambient term is missing: ambient * render.ambient");
+    if (number == 0) {
+        textAppend(text, "the ambient term is missing");
+        return;
+    }
+    textAppend(text, "the ambient light is ");
+    appendRounded(text, number, 3);
+    textAppend(text, " times the scene's");
+}
+
+static void applyLightScale(const Trait *trait, double number, Hypothesis *hypothesis)
+{
+    hypothesis->light.lightScale = number;
+    hypothesis->light.scaledLight = trait->other;
+}
+
+static void tellLightScale(const Trait *trait, double number, const Scene *scene, Text *text)
+{
+    (void)scene;
+    if (trait->other == 0)
+        textAppend(text, "the lights are ");
+    else
+        textAppendFormat(text, "light %d is ", trait->other);
+    if (number == 0) {
+        textAppend(text, "missing");
+        return;
+    }
+    appendRounded(text, number, 3);
+    textAppend(text, " times as bright as they should be");
 }
 
 static void applyAcne(const Trait *trait, double number, Hypothesis *hypothesis)
@@ -571,6 +599,21 @@ static void addHighlightTraits(const Scene *scene, Traits *traits)
     }
 }
 
+/* All lamps brighter or darker; of several also each alone. */
+static void addLightScales(const Scene *scene, Traits *traits)
+{
+    size_t each = scene->lightCount > 1 && scene->lightCount <= 8 ? scene->lightCount : 0;
+    for (size_t i = 0; i <= each && scene->lightCount > 0; i++)
+        addTrait(traits, (Trait){.cause = CAUSE_EXPOSURE,
+                                 .part = TRAIT_LIGHT,
+                                 .apply = applyLightScale,
+                                 GRID(LIGHT_FACTORS),
+                                 .other = (int)i,
+                                 .tell = tellLightScale,
+                                 .formula = "Ic * Lc * dot(N, L) / d^2",
+                                 .key = "color"});
+}
+
 static void addLightTraits(const Scene *scene, Traits *traits)
 {
     static const char SHADOW[] = "a light counts if nothing lies strictly between the point and it";
@@ -611,8 +654,14 @@ static void addLightTraits(const Scene *scene, Traits *traits)
     addLightTrait(traits, CAUSE_NORMALS, applyNormals, tellNormals, NORMALS_FLAT, 0,
                   "N is interpolated between the corners of a triangle", "smooth");
     if (!colorIsBlack(scene->render.ambient))
-        addLightTrait(traits, CAUSE_AMBIENT, applyNoAmbient, tellNoAmbient, 0, 0,
-                      "color = ambient * render.ambient + emission + ...", "ambient");
+        addTrait(traits, (Trait){.cause = CAUSE_AMBIENT,
+                                 .part = TRAIT_LIGHT,
+                                 .apply = applyAmbientScale,
+                                 GRID(AMBIENTS),
+                                 .tell = tellAmbientScale,
+                                 .formula = "color = ambient * render.ambient + emission + ...",
+                                 .key = "ambient"});
+    addLightScales(scene, traits);
     if (scene->lightCount > 0)
         addTrait(traits, (Trait){.cause = CAUSE_ACNE,
                                  .part = TRAIT_ACNE,

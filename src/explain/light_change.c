@@ -99,6 +99,10 @@ static Color3f changedLightReturned(const SurfaceFinder *finder, const SurfacePo
         for (int sample = 0; sample < lightSampleCount(light); sample++) {
             Color3f full;
             ArrivingLight arriving = changedArriving(change, light, sample, point->position, &full);
+            if (change->lightScale != 1 && (change->scaledLight == 0 || change->scaledLight == (int)i + 1)) {
+                arriving.color = scaleColor(arriving.color, change->lightScale);
+                full = scaleColor(full, change->lightScale);
+            }
             double cosine = dot(n, arriving.direction);
             bool isBehind = !(cosine > 0);
             if ((isBehind && change->negative == NEGATIVE_AS_SCENE) || colorIsBlack(arriving.color))
@@ -128,9 +132,8 @@ static Color3f changedLightReturned(const SurfaceFinder *finder, const SurfacePo
                 highlight, changedHighlight(change, model, &changed, shining, facing, arriving.direction, v));
         }
     }
-    Color3f own = material->emission;
-    if (!change->noAmbient)
-        own = addColors(multColors(material->ambient, scene->render.ambient), own);
+    Color3f ambient = multColors(material->ambient, scene->render.ambient);
+    Color3f own = addColors(scaleColor(ambient, change->ambientScale), material->emission);
     Color3f ks = change->highlight == HIGHLIGHT_DIFFUSE ? multColors(material->specular, material->diffuse)
                                                         : material->specular;
     return addColors(addColors(own, diffuse), multColors(ks, highlight));

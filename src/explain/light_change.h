@@ -64,9 +64,17 @@ typedef struct LightChange {
     NormalMistake normals;
     NegativeMistake negative;
     bool backUnshadowed;    /* lights behind the surface are not tested for shadows */
-    bool noAmbient;         /* the material's ambient plays no part */
+    double ambientScale;    /* of the scene's ambient light */
+    double lightScale;      /* of the lamps, or of the one below */
+    int scaledLight;        /* its number, from 1; 0: all */
     unsigned blockedLights; /* bit i: light i does not arrive */
 } LightChange;
+
+/* The change that changes nothing. */
+static inline LightChange neutralLightChange(void)
+{
+    return (LightChange){.ambientScale = 1, .lightScale = 1};
+}
 
 /* A finder that traces with the change; begins with its SurfaceFinder. */
 typedef struct ChangedFinder {

@@ -336,7 +336,7 @@ static bool changesNothing(Search *search, const Candidate *single)
 static Status beginSearch(Search *search, const Truth *truth, const Traits *traits, const Evidence *evidence)
 {
     ViewChange view = neutralViewChange();
-    LightChange light = {0};
+    LightChange light = neutralLightChange();
     *search = (Search){.truth = truth, .traits = traits, .evidence = evidence, .status = statusOk()};
     return predictPixels(truth, evidence, &view, &light, false, &search->right);
 }

@@ -65,6 +65,10 @@ static void lightsHalved(Scene *scene)
 
 static void ambientAdded(Scene *scene)
 {
+    if (!colorIsBlack(scene->render.ambient)) {
+        scene->render.ambient = scaleColor(scene->render.ambient, 1.8);
+        return;
+    }
     scene->render.ambient = createColor(0.1f, 0.1f, 0.1f);
     for (size_t i = 0; i < scene->objectCount; i++)
         scene->objects[i].material.ambient = scene->objects[i].material.diffuse;
@@ -131,10 +135,14 @@ static Color3f studentShade(const SurfaceFinder *finder, const SurfacePoint *poi
                 continue;
         }
         Vector3D r = reflect(multVector(arriving.direction, -1), n);
-        double shine = pow(fmax(0, dot(r, v)), (double)material->shininess);
+        double base = dot(r, v);
+        if (materialModel(scene, material) == MODEL_BLINN_PHONG)
+            base = dot(n, normalize(addVectors(arriving.direction, v)));
+        double shine = pow(fmax(0, base), (double)material->shininess);
         if (behind || materialModel(scene, material) == MODEL_LAMBERT)
             shine = 0;
-        if (student->shortHighlight)
+        if (student->shortHighlight && scene->lights[i].falloff == FALLOFF_INVERSE_SQUARE &&
+            scene->lights[i].kind != LIGHT_DIRECTIONAL)
             shine *= d * d;
         const float lights[3] = {arriving.color.r, arriving.color.g, arriving.color.b};
         const float kd[3] = {material->diffuse.r, material->diffuse.g, material->diffuse.b};
@@ -298,8 +306,7 @@ enum {
 
 static bool needsScene(const Mistake *mistake)
 {
-    return mistake != NULL && (mistake->inScene != NULL || mistake->studentFlag != 0) &&
-           mistake->cause != CAUSE_EXPOSURE;
+    return mistake != NULL && (mistake->inScene != NULL || mistake->studentFlag != 0);
 }
 
 /* Draw with the course's shading, ray by ray, and the mistakes. */
