@@ -25,6 +25,11 @@ _eclairage()
       mapfile -t COMPREPLY < <(compgen -d -- "$word")
       return
       ;;
+    --svg)
+      compopt -o filenames 2>/dev/null
+      mapfile -t COMPREPLY < <(compgen -f -- "$word")
+      return
+      ;;
     --width)
       return
       ;;
@@ -80,7 +85,7 @@ _eclairage()
   # Options and operands, by the command.
   for ((i = 1; i < COMP_CWORD; i++)); do
     case ${COMP_WORDS[i]} in
-    render|pov|compare|diff|check|schema)
+    render|pov|compare|diff|why|check|schema)
       command=${COMP_WORDS[i]}
       break
       ;;
@@ -104,6 +109,10 @@ _eclairage()
     options='-o --output --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='*.png'
     ;;
+  why)
+    options='--svg --width --height --model --samples --encoding --bit-depth --json -q --quiet --color -h --help --version'
+    operands='@(*.yaml|*.yml)'
+    ;;
   check)
     options='--json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
@@ -112,7 +121,7 @@ _eclairage()
     options='-q --quiet --color -h --help --version'
     ;;
   *)
-    options='render pov compare diff check schema --help --version'
+    options='render pov compare diff why check schema --help --version'
     ;;
   esac
 

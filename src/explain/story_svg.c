@@ -137,18 +137,19 @@ static size_t countCharacters(const char *words)
 
 /* Put a label near a point: the first place where it covers neither label nor line, else no label. Where
  * there is none it is left out rather than put over another, unless it must be there. */
-static void putLabel(Drawing *drawing, DrawnPoint at, const char *words, const char *color, bool mustBeThere)
+static void putLabel(Drawing *drawing, DrawnPoint at, const char *words, const char *color, bool isCentred,
+                     bool mustBeThere)
 {
     static const double ways[8][2] = {{0.7, -0.7}, {-0.7, -0.7}, {0.7, 0.7}, {-0.7, 0.7},
                                       {0, -1},     {0, 1},       {1, 0},     {-1, 0}};
-    static const double distances[] = {12, 20, 30, 44, 62, 84};
+    static const double distances[] = {0, 12, 20, 30, 44, 62, 84};
     double width = 7.3 * (double)countCharacters(words) + 4, height = 16;
     LabelBox best = {0};
     bool found = false;
     for (int pass = 0; pass < 2 && !found; pass++) {
-        for (size_t d = 0; d < sizeof distances / sizeof *distances && !found; d++) {
+        for (size_t d = isCentred ? 0 : 1; d < sizeof distances / sizeof *distances && !found; d++) {
             for (int way = 0; way < 8 && !found; way++) {
-                double dx = ways[way][0], dy = ways[way][1];
+                double dx = d > 0 ? ways[way][0] : 0, dy = d > 0 ? ways[way][1] : 0;
                 double centerX = at.x + dx * distances[d] +
                                  (dx > 0.1    ? width / 2
                                   : dx < -0.1 ? -width / 2
@@ -423,7 +424,7 @@ static void labelObject(Drawing *drawing, const Object *object, const DrawnPoint
     double left = fmax(box[0].x, LEFT), right = fmin(box[1].x, LEFT + VIEW_WIDTH);
     double top = fmax(box[0].y, TOP), bottom = fmin(box[1].y, TOP + VIEW_HEIGHT);
     DrawnPoint at = {(left + right) / 2, (top + bottom) / 2};
-    putLabel(drawing, at, textString(&name), "#57606a", false);
+    putLabel(drawing, at, textString(&name), "#57606a", true, false);
     drawing->text->failed = drawing->text->failed || name.failed;
     textFree(&name);
 }
@@ -441,7 +442,10 @@ static void drawArrow(Drawing *drawing, DrawnPoint from, Vector3D v, const char 
                      marker);
     drawLine(drawing, from, to, textString(&attributes));
     textFree(&attributes);
-    putLabel(drawing, to, name, color, true);
+    double length = hypot(to.x - from.x, to.y - from.y);
+    if (length > 1)
+        to = (DrawnPoint){to.x + (to.x - from.x) / length * 12, to.y + (to.y - from.y) / length * 12};
+    putLabel(drawing, to, name, color, true, true);
 }
 
 static void drawVectors(Drawing *drawing)
@@ -481,7 +485,7 @@ static void drawSun(Drawing *drawing, DrawnPoint at, const Light *lamp, size_t n
     } else if (isOutside) {
         textAppend(&name, ", from infinitely far");
     }
-    putLabel(drawing, at, textString(&name), LIGHT_COLOR, true);
+    putLabel(drawing, at, textString(&name), LIGHT_COLOR, false, true);
     textFree(&name);
 }
 
@@ -509,7 +513,7 @@ static void drawShadowRay(Drawing *drawing, DrawnPoint p, const LightStory *ligh
             textAppend(&name, "blocked here");
             if (light->blocker->line > 0)
                 textAppendFormat(&name, " by line %d", light->blocker->line);
-            putLabel(drawing, at, textString(&name), BLOCKED_COLOR, true);
+            putLabel(drawing, at, textString(&name), BLOCKED_COLOR, false, true);
             textFree(&name);
         }
         return;
@@ -610,7 +614,7 @@ static void drawCamera(Drawing *drawing, DrawnPoint at)
     }
     drawCircle(text, at, 5, "fill=\"" INK "\"");
     reserve(drawing, at, 12);
-    putLabel(drawing, at, "camera", INK, true);
+    putLabel(drawing, at, "camera", INK, false, true);
 }
 
 /* ---- The page ---- */
@@ -727,7 +731,7 @@ static void beginPage(Drawing *drawing, const char *name)
     Text *text = drawing->text;
     textAppendFormat(text,
                      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
-                     "height=\"%d\" role=\"img\" aria-labelledby=\"title desc\">\n"
+                     "height=\"%d\" fill=\"" INK "\" role=\"img\" aria-labelledby=\"title desc\">\n"
                      "<title id=\"title\">Pixel (%d, %d) of ",
                      WIDTH, HEIGHT, WIDTH, HEIGHT, drawing->story->x, drawing->story->y);
     appendEscaped(text, name);
@@ -735,10 +739,10 @@ static void beginPage(Drawing *drawing, const char *name)
     appendDescription(drawing);
     textAppendFormat(text,
                      "</desc>\n"
-                     "<style>text { font: 13px system-ui, sans-serif; text-anchor: middle; fill: " INK
-                     "; } .labels text { paint-order: stroke; stroke: #fbfbf9; stroke-width: 4px; "
+                     "<style>text { font: 13px system-ui, sans-serif; text-anchor: middle; } .labels text { "
+                     "paint-order: stroke; stroke: #fbfbf9; stroke-width: 4px; "
                      "stroke-linejoin: round; } .head { font-size: 17px; font-weight: 600; } .note { "
-                     "font-size: 12px; fill: #57606a; } .head, .note, .key { text-anchor: start; }</style>\n"
+                     "font-size: 12px; } .head, .note, .key { text-anchor: start; }</style>\n"
                      "<defs><clipPath id=\"view\"><rect x=\"%d\" y=\"%d\" width=\"%d\" "
                      "height=\"%d\"/></clipPath>\n",
                      LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT);
@@ -795,7 +799,7 @@ void writeStorySvg(const PixelStory *story, const char *name, Text *text)
         drawLights(&drawing);
         drawVectors(&drawing);
         drawCircle(text, end, 4.5, "fill=\"" INK "\"");
-        putLabel(&drawing, end, "P", INK, true);
+        putLabel(&drawing, end, "P", INK, false, true);
     }
     for (size_t i = 0; i < drawing.objectCount; i++)
         if (drawn[i])
