@@ -712,9 +712,14 @@ static void appendDescription(Drawing *drawing)
                                  [LIGHT_DARK] = "sends nothing to the point",
                                  [LIGHT_BLOCKED] = "is blocked",
                                  [LIGHT_NOT_ASKED] = "is not asked"};
-    for (size_t i = 0; i < ray->lightCount && i < MOST_SHADOW_RAYS && !ray->isUnlit; i++) {
+    for (size_t i = 0; i < ray->lightCount && i < 1000 && !ray->isUnlit; i++) {
         const LightStory *light = &ray->lights[i];
-        textAppendFormat(&words, " Light %zu %s", light->light + 1, fates[light->fate]);
+        /* Of an area's point lights one that fares as the one before it is not told again. */
+        if (i > 0 && light[-1].light == light->light && light[-1].fate == light->fate)
+            continue;
+        textAppendFormat(&words, " Light %zu%s %s", light->light + 1,
+                         story->scene->lights[light->light].kind == LIGHT_AREA ? ", a part of it," : "",
+                         fates[light->fate]);
         if (light->blocker != NULL) {
             textAppend(&words, " by ");
             appendObjectName(story->scene, light->blocker, light->blockerPart, &words);

@@ -201,6 +201,7 @@ static void theNearestBlockerIsNamed(void **state)
                        "  - sphere: {center: [0, 4, 0], radius: 0.5}\n"
                        "  - sphere: {center: [0, 2, 0], radius: 0.5, casts_shadow: false}\n"
                        "  - plane: {point: [0, 0, 0], normal: [0, 1, 0]}\n"
+                       "  - sphere: {center: [0, 5.5, 0], radius: 0.5}\n"
                        "  - sphere: {center: [0, 12, 0], radius: 0.5}\n");
     PixelStory story = tell(&scene, 0, 0);
     const LightStory *light = &story.ray->lights[0];
