@@ -96,7 +96,7 @@ PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/patterns/*.h src/shapes/*.
 UNIT_SOURCES := $(wildcard tests/unit/test_*.c)
 UNIT_HELPERS := $(filter-out $(UNIT_SOURCES),$(wildcard tests/unit/*.c))
 # The programs in tests/property, and the helpers that each of them is linked with.
-PROPERTY_PROGRAMS := crosscheck engines planted
+PROPERTY_PROGRAMS := crosscheck engines planted stories
 PROPERTY_SOURCES := $(wildcard tests/property/*.c)
 PROPERTY_HELPERS := $(filter-out $(PROPERTY_PROGRAMS:%=tests/property/%.c),$(PROPERTY_SOURCES)) tests/unit/both_engines.c
 

@@ -32,6 +32,11 @@ _eclairage()
       mapfile -t COMPREPLY < <(compgen -P "$given" -W 'normal depth id albedo ambient emission diffuse specular background reflection transmission shadow all' -- "${word##*,}")
       return
       ;;
+    --svg)
+      compopt -o filenames 2>/dev/null
+      mapfile -t COMPREPLY < <(compgen -f -- "$word")
+      return
+      ;;
     --width)
       return
       ;;
@@ -87,7 +92,7 @@ _eclairage()
   # Options and operands, by the command.
   for ((i = 1; i < COMP_CWORD; i++)); do
     case ${COMP_WORDS[i]} in
-    render|pov|compare|diff|check|schema)
+    render|pov|compare|diff|why|check|schema)
       command=${COMP_WORDS[i]}
       break
       ;;
@@ -111,6 +116,10 @@ _eclairage()
     options='-o --output --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='*.png'
     ;;
+  why)
+    options='--svg --width --height --model --samples --encoding --bit-depth --json -q --quiet --color -h --help --version'
+    operands='@(*.yaml|*.yml)'
+    ;;
   check)
     options='--json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
@@ -119,7 +128,7 @@ _eclairage()
     options='-q --quiet --color -h --help --version'
     ;;
   *)
-    options='render pov compare diff check schema --help --version'
+    options='render pov compare diff why check schema --help --version'
     ;;
   esac
 

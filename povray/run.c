@@ -174,21 +174,36 @@ static Status runIn(const char *folder, const PovraySettings *settings, bool ant
     if (program == NULL)
         return findPovray();
 
-    char size[2][24], format[8], threads[16], samples[16];
+    char size[2][24], format[8], threads[16], samples[16], region[4][24];
     snprintf(size[0], sizeof size[0], "+W%d", settings->width);
     snprintf(size[1], sizeof size[1], "+H%d", settings->height);
     snprintf(format, sizeof format, "+FN%d", settings->bitDepth == 16 ? 16 : 8);
     snprintf(threads, sizeof threads, "+WT%d", settings->threads > 0 ? settings->threads : 1);
     snprintf(samples, sizeof samples, "+R%d", settings->samples);
     char *gamma = settings->encoding == ENCODING_LINEAR ? "File_Gamma=1.0" : "File_Gamma=srgb";
-    char *arguments[] = {"povray", "+Iscene.pov", "+Opicture.png", size[0], size[1], format, gamma,
-                         "-D",     "-P",          threads,         "-A",    NULL,    NULL,   NULL,
+    char *arguments[] = {"povray", "+Iscene.pov", "+Opicture.png",
+                         size[0],  size[1],       format,
+                         gamma,    "-D",          "-P",
+                         threads,  "-A",          NULL,
+                         NULL,     NULL,          NULL,
+                         NULL,     NULL,          NULL,
                          NULL};
+    int count = 10;
     if (antialias) {
-        arguments[10] = "+A0.0";
-        arguments[11] = "+AM1";
-        arguments[12] = samples;
-        arguments[13] = "-J";
+        arguments[count++] = "+A0.0";
+        arguments[count++] = "+AM1";
+        arguments[count++] = samples;
+        arguments[count++] = "-J";
+    } else {
+        count++;
+    }
+    if (settings->onePixel) {
+        /* Columns and rows count from 1. */
+        const char *const bounds[4] = {"+SC", "+EC", "+SR", "+ER"};
+        for (int i = 0; i < 4; i++) {
+            snprintf(region[i], sizeof region[i], "%s%d", bounds[i], 1 + (i < 2 ? settings->x : settings->y));
+            arguments[count++] = region[i];
+        }
     }
     Text path = {0}, home = {0}, ini = {0}, log = {0};
     const char *searched = getenv("PATH");

@@ -5,6 +5,8 @@
 #include "base/status.h"
 #include "image/image.h"
 
+#include <stdbool.h>
+
 typedef struct PovraySettings {
     int width, height;
     int bitDepth; /* 8 or 16 */
@@ -12,6 +14,8 @@ typedef struct PovraySettings {
     int samples;           /* n for the mean of n x n rays a pixel; above 1 only with linear encoding */
     int threads;           /* POV-Ray's work threads, at least 1 */
     double timeoutSeconds; /* then it is killed: STATUS_POVRAY */
+    bool onePixel;         /* draw only the pixel (x, y), from 0 at the top left; all others are black */
+    int x, y;
 } PovraySettings;
 
 /* Whether there is a program povray on the PATH; STATUS_POVRAY with the command that installs it. */

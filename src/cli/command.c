@@ -67,6 +67,19 @@ const Command COMMANDS[] = {
      "depth and encoding; alpha is ignored. -o writes a picture of the differences; with "
      "-o - that picture has standard output, and the words go to standard error.",
      runDiff},
+    {COMMAND_WHY, "why", OPERANDS_PIXEL, "SCENE.yaml X Y", 3, 3, "tell the whole story of one pixel",
+     "eclairage why scene.yaml 250 240\tevery number of its colour\n"
+     "eclairage why scene.yaml 250 240 --svg side.svg\tand a drawing of the rays\n"
+     "eclairage why scene.yaml 250 240 --json\tas JSON, numbers in full\n",
+     "Tells how the pixel gets its colour: the ray, the objects it was tried on, the point "
+     "and the normal, each light with every number of the formula and its shadow test, "
+     "mirrored and refracted rays, clamping and encoding, and POV-Ray's value for the same "
+     "pixel. X counts to the right and Y down, both from 0.\n"
+     "\n"
+     "--svg draws the rays from the side; with --svg - the drawing has standard output, and "
+     "the words go to standard error. The exit code is 0 also where POV-Ray has no value for "
+     "the pixel, which the story then says.",
+     runWhy},
     {COMMAND_CHECK, "check", OPERANDS_SCENES, "SCENE.yaml...", 1, SIZE_MAX, "find what is wrong with scenes",
      "eclairage check scene.yaml\tevery error and warning\n"
      "eclairage check --quiet *.yaml && echo all fine\tin a script\n",

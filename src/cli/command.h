@@ -20,14 +20,16 @@ typedef enum CommandBit {
     COMMAND_DIFF = 1 << 3,
     COMMAND_CHECK = 1 << 4,
     COMMAND_SCHEMA = 1 << 5,
-    ALL_COMMANDS = (1 << 6) - 1
+    COMMAND_WHY = 1 << 6,
+    ALL_COMMANDS = (1 << 7) - 1
 } CommandBit;
 
 /* What the operands of a command are, for the completion of the shell. */
 typedef enum OperandKind {
     OPERANDS_NONE,
     OPERANDS_SCENES,
-    OPERANDS_PICTURES
+    OPERANDS_PICTURES,
+    OPERANDS_PIXEL /* a scene, and two whole numbers */
 } OperandKind;
 
 typedef struct Arguments Arguments;
@@ -80,6 +82,7 @@ struct Arguments {
     int color;            /* a ColorChoice */
     const char *output;   /* of -o; NULL: not given */
     const char *folder;   /* of --out; NULL: not given */
+    const char *svg;      /* of --svg; NULL: not given */
     int width, height;    /* 0: not given */
     int samples, threads; /* 0: not given */
     int model;            /* a ShadingModel less MODEL_SIMPLE, or NOT_GIVEN */
@@ -95,5 +98,6 @@ int runCompare(const Arguments *arguments);
 int runDiff(const Arguments *arguments);
 int runCheck(const Arguments *arguments);
 int runSchema(const Arguments *arguments);
+int runWhy(const Arguments *arguments);
 
 #endif

@@ -236,7 +236,7 @@ void writeBashCompletion(Text *text)
         textAppendFormat(text, "  %s)\n    options='", COMMANDS[i].name);
         appendWords(text, COMMANDS[i].bit);
         textAppend(text, "'\n");
-        if (COMMANDS[i].operandKind == OPERANDS_SCENES)
+        if (COMMANDS[i].operandKind == OPERANDS_SCENES || COMMANDS[i].operandKind == OPERANDS_PIXEL)
             textAppend(text, "    operands='@(*.yaml|*.yml)'\n");
         else if (COMMANDS[i].operandKind == OPERANDS_PICTURES)
             textAppend(text, "    operands='*.png'\n");

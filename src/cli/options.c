@@ -11,7 +11,7 @@
 
 enum {
     DRAWING = COMMAND_RENDER | COMMAND_COMPARE,
-    SIZED = DRAWING | COMMAND_POV,
+    SIZED = DRAWING | COMMAND_POV | COMMAND_WHY,
     JUDGING = COMMAND_COMPARE | COMMAND_DIFF
 };
 
@@ -27,6 +27,8 @@ const Option OPTIONS[] = {
      .help = "draw these as well, names with commas between, or all"},
     {"per-term", 0, COMMAND_COMPARE, VALUE_NONE, FIELD(perTerm),
      .help = "compare each term of the light as well; one that differs makes the scene differ"},
+    {"svg", 0, COMMAND_WHY, VALUE_FILE, .placeholder = "FILE", FIELD(svg),
+     .help = "draw the rays from the side to FILE; - is standard output"},
     {"width", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(width),
      .help = "draw N pixels wide; without --height the scene's aspect is kept"},
     {"height", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(height),
@@ -55,8 +57,8 @@ const Option OPTIONS[] = {
      .help = "ask for a structural similarity of at least X"},
     {"flip", 0, JUDGING, VALUE_NUMBER, .placeholder = "X", .minimum = 0, .maximum = 1, FIELD(tolerance.flip),
      .help = "allow a mean FLIP error of at most X"},
-    {"json", 0, COMMAND_RENDER | COMMAND_COMPARE | COMMAND_DIFF | COMMAND_CHECK, VALUE_NONE, FIELD(json),
-     .help = "write the result as JSON to standard output"},
+    {"json", 0, COMMAND_RENDER | COMMAND_COMPARE | COMMAND_DIFF | COMMAND_CHECK | COMMAND_WHY, VALUE_NONE,
+     FIELD(json), .help = "write the result as JSON to standard output"},
     {"quiet", 'q', ALL_COMMANDS, VALUE_NONE, FIELD(quiet),
      .help = "show no progress and no notes; errors and warnings stay"},
     {"color", 0, ALL_COMMANDS, VALUE_CHOICE, .choices = {"auto", "always", "never"}, FIELD(color),
@@ -260,6 +262,14 @@ static bool looksLikeOption(const char *argument)
     return argument[0] == '-' && argument[1] != '\0';
 }
 
+/* Whether it is a number below 0 where a command takes numbers: no option, but a wrong pixel, and the command
+ * says what is wrong with it. */
+static bool isNegativeOperand(const char *argument, const Command *command)
+{
+    return command != NULL && command->operandKind == OPERANDS_PIXEL && argument[0] == '-' &&
+           argument[1] >= '0' && argument[1] <= '9';
+}
+
 /* Name the option that was probably meant, among those that fit the command. */
 static Status unknownOption(const char *given, size_t length, const Command *command)
 {
@@ -387,18 +397,21 @@ static Status checkTogether(const Arguments *arguments)
     size_t count = arguments->operandCount;
     if (count < command->fewestOperands)
         return statusError(STATUS_USAGE, "'%s' needs %s", command->name,
-                           command->bit == COMMAND_DIFF ? "two pictures: A.png B.png"
-                           : command->mostOperands > 1  ? "at least one scene: SCENE.yaml"
-                                                        : "a scene: SCENE.yaml");
+                           command->bit == COMMAND_DIFF  ? "two pictures: A.png B.png"
+                           : command->bit == COMMAND_WHY ? "a scene and a pixel: SCENE.yaml X Y"
+                           : command->mostOperands > 1   ? "at least one scene: SCENE.yaml"
+                                                         : "a scene: SCENE.yaml");
     if (count > command->mostOperands)
         return statusError(STATUS_USAGE, "'%s' takes %s%s, and '%s' is too many", command->name,
                            command->mostOperands == 0 ? "no operands" : "only ",
-                           command->mostOperands == 0   ? ""
-                           : command->mostOperands == 1 ? "one scene"
-                                                        : "two pictures",
+                           command->mostOperands == 0    ? ""
+                           : command->bit == COMMAND_WHY ? "one scene and a pixel"
+                           : command->mostOperands == 1  ? "one scene"
+                                                         : "two pictures",
                            arguments->operands[command->mostOperands]);
     size_t standardInputs = 0;
-    for (size_t i = 0; i < count; i++) {
+    size_t files = command->operandKind == OPERANDS_PIXEL ? 1 : count;
+    for (size_t i = 0; i < files; i++) {
         if (*arguments->operands[i] == '\0')
             return statusError(STATUS_USAGE, "the name of a file is empty");
         standardInputs += strcmp(arguments->operands[i], "-") == 0;
@@ -415,6 +428,9 @@ static Status checkTogether(const Arguments *arguments)
     if (arguments->json && arguments->output != NULL && strcmp(arguments->output, "-") == 0)
         return statusError(STATUS_USAGE, "-o - and --json would both write to standard output: "
                                          "give -o a file");
+    if (arguments->json && arguments->svg != NULL && strcmp(arguments->svg, "-") == 0)
+        return statusError(STATUS_USAGE, "--svg - and --json would both write to standard output: "
+                                         "give --svg a file");
     return statusOk();
 }
 
@@ -447,7 +463,8 @@ Status parseArguments(int argc, char **argv, Arguments *arguments)
         if (!optionsEnded && strcmp(argv[i], "--") == 0) {
             optionsEnded = true;
             i++;
-        } else if (!optionsEnded && looksLikeOption(argv[i])) {
+        } else if (!optionsEnded && looksLikeOption(argv[i]) &&
+                   !isNegativeOperand(argv[i], arguments->command)) {
             status = readOption(argc, argv, &i, arguments);
         } else {
             /* The first operand is the name of the command. */
