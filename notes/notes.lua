@@ -771,17 +771,15 @@ local function exerciseDiv(div)
   local answers = 0
   for _, block in ipairs(div.content) do
     if block.t == 'Div' and contains(block.classes, 'answer') then answers = answers + 1 end
-    made[#made + 1] = block
   end
   if answers ~= 1 then complain('exercise %s has %d answers, not one', number, answers) end
+  -- What is returned is not walked again, only what is inside of it: hence a div around the directives.
+  made[#made + 1] = pandoc.Div(div.content, pandoc.Attr('', { 'exercise-text' }))
   made[#made + 1] = html '</section>'
   return made
 end
 local function answerDiv(div)
-  local made = { html('<details class="answer"><summary>' .. words.answer .. '</summary><div class="answer-text">') }
-  for _, block in ipairs(div.content) do made[#made + 1] = block end
-  made[#made + 1] = html '</div></details>'
-  return made
+  return { html('<details class="answer"><summary>' .. words.answer .. '</summary>'), pandoc.Div(div.content, pandoc.Attr('', { 'answer-text' })), html '</details>' }
 end
 
 -- --- The pages ----------------------------------------------------------------------------------------------
@@ -916,6 +914,11 @@ return {
     Span = function(span) if contains(span.classes, 'value') then return valueSpan(span), false end end,
     Image = function() complain('a picture is shown with the directive .picture, not with ![]()') end,
     Link = link,
+    -- A formula that is too wide scrolls in a box of its own.
+    Math = function(element)
+      if element.mathtype ~= 'DisplayMath' then return nil end
+      return { pandoc.RawInline('html', '<span class="formula">'), element, pandoc.RawInline('html', '</span>') }
+    end,
   },
   { Pandoc = finish },
 }
