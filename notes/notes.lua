@@ -914,10 +914,11 @@ return {
     Span = function(span) if contains(span.classes, 'value') then return valueSpan(span), false end end,
     Image = function() complain('a picture is shown with the directive .picture, not with ![]()') end,
     Link = link,
-    -- A formula that is too wide scrolls in a box of its own.
+    -- A formula that is too wide for a telephone scrolls in a box of its own: browsers break none.
     Math = function(element)
-      if element.mathtype ~= 'DisplayMath' then return nil end
-      return { pandoc.RawInline('html', '<span class="formula">'), element, pandoc.RawInline('html', '</span>') }
+      local class = element.mathtype == 'DisplayMath' and 'formula' or #element.text > 24 and 'long-formula'
+      if not class then return nil end
+      return { pandoc.RawInline('html', '<span class="' .. class .. '">'), element, pandoc.RawInline('html', '</span>') }
     end,
   },
   { Pandoc = finish },
