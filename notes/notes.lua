@@ -383,7 +383,7 @@ local function pictureTag(path, alt)
   if data:sub(2, 4) == 'PNG' then
     kind, size = 'png', (' width="%d" height="%d"'):format(string.unpack('>I4I4', data, 17))
   end
-  return ('<img alt="%s"%s decoding="async" src="data:image/%s;base64,%s">'):format(escape(alt), size, kind, encoded)
+  return ('<img alt="%s"%s src="data:image/%s;base64,%s">'):format(escape(alt), size, kind, encoded)
 end
 
 -- The caption of a figure: what stands inside its directive.
