@@ -864,7 +864,7 @@ local function finish(document)
     if page.name == name then here = i end
     links[i] = { href = page.name .. '.html', title = page.title, number = numberOf(page), current = page.name == name or nil }
   end
-  meta.chapters = links
+  meta.chapters = #links > 0 and links or nil
   meta.previous = here > 1 and links[here - 1] or (here == 1 and { href = 'index.html', title = titles[language].index and titles[language].index.title or words.notes }) or nil
   meta.next = links[here + 1]
   local switch = {}

@@ -59,7 +59,7 @@ checkSite() {
     grep -oE '<img [^>]{0,100}' "${pages[@]}" | grep -v -e '<img alt="[^"]' -e '/index.html:<img alt=""' |
         report "every picture has an alternative text"
     for page in "${pages[@]}"; do
-        sed 's/src="data:[^"]*"//g' "$page" | grep -oE ' href="[^"]*"' | sed 's/^ href="//; s/"$//' | sort -u | while read -r target; do
+        sed 's/src="data:[^"]*"//g' "$page" | grep -oE '\bhref="[^"]*"' | sed 's/^href="//; s/"$//' | sort -u | while read -r target; do
             case $target in https://* | http://* | data:,) continue ;; esac
             file=$page
             [ "${target%%#*}" = "" ] || file=$(dirname "$page")/${target%%#*}
