@@ -7,7 +7,7 @@
 
 enum {
     ROUGH_PIXELS = 250,   /* that pairs are tried on */
-    FINE_PIXELS = 2500,   /* that single traits, and the best pairs, are fitted to */
+    FINE_PIXELS = 1500,   /* that single traits, and the best pairs, are fitted to */
     FULL_PIXELS = 120000, /* that the residuals are measured on */
     ROUGH_STEP = 8,       /* of the pixels, while the grid of a number is gone through */
     GOLDEN_STEPS = 12,
