@@ -121,8 +121,8 @@ static void writeHeader(const Export *export, const char *name)
             scene->render.samples * scene->render.samples + 1, scene->render.samples * scene->render.samples);
     textAppend(pov, "#version 3.7;\nglobal_settings { assumed_gamma ");
     textAppendPovNumber(pov, has(export, POV_HABIT_GAMMA) ? POV_HABIT_ASSUMED_GAMMA : 1);
-    textAppendFormat(pov, " max_trace_level %d adc_bailout 0 ambient_light rgb %d }\n", scene->render.maxDepth,
-                     has(export, POV_HABIT_AMBIENT));
+    textAppendFormat(pov, " max_trace_level %d adc_bailout 0 ambient_light rgb %d }\n",
+                     scene->render.maxDepth, has(export, POV_HABIT_AMBIENT));
     textAppend(pov, "#default { finish { ambient 0 emission 0 diffuse 1 brilliance 1 phong 0 specular 0 "
                     "reflection 0 } }\n\n");
 }
@@ -145,8 +145,8 @@ static void writeUsualCamera(const Export *export, const CameraFrame *frame)
         angle = atan(tan(angle * pi / 360) * image->width / image->height) * 360 / pi;
     textAppend(pov, "camera {\n  location ");
     textAppendPovVector(pov, frame->position, export->scale);
-    textAppendFormat(pov, "\n  right %sx*%d/%d\n  up y\n  angle ", has(export, POV_HABIT_LEFT_HANDED) ? "" : "-",
-                     image->width, image->height);
+    textAppendFormat(pov, "\n  right %sx*%d/%d\n  up y\n  angle ",
+                     has(export, POV_HABIT_LEFT_HANDED) ? "" : "-", image->width, image->height);
     textAppendPovNumber(pov, angle);
     textAppend(pov, "\n  sky ");
     textAppendPovVector(pov, normalize(scene->camera.up), 1);
@@ -348,8 +348,8 @@ static void writeObject(const Export *export, const Object *object, bool isPart)
         }
         return;
     }
-    textAppendPovTexture(pov, export->scene, &object->material, export->finish, export->habits,
-                         export->scale, ownExtent(export, object));
+    textAppendPovTexture(pov, export->scene, &object->material, export->finish, export->habits, export->scale,
+                         ownExtent(export, object));
     if (object->transform != NULL) {
         textAppend(pov, "\n  ");
         textAppendPovMatrix(pov, &object->transform->worldFromObject, export->scale);

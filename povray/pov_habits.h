@@ -17,8 +17,8 @@ typedef enum PovHabit {
     POV_HABIT_HIGHLIGHT_COLOR = 1 << 4, /* the highlight's colour is one number, the mean of its three */
     POV_HABIT_GAMMA = 1 << 5,           /* assumed_gamma 2.2 */
     POV_HABIT_LEFT_HANDED = 1 << 6,     /* right x*aspect: the picture mirrored */
-    POV_HABIT_ANGLE = 1 << 7,           /* the vertical angle of view written as `angle`, the horizontal one */
-    POV_HABIT_AREA_LIGHT = 1 << 8,      /* area_light in place of a grid of lights */
+    POV_HABIT_ANGLE = 1 << 7,      /* the vertical angle of view written as `angle`, the horizontal one */
+    POV_HABIT_AREA_LIGHT = 1 << 8, /* area_light in place of a grid of lights */
     ALL_POV_HABITS = (1 << 9) - 1
 } PovHabit;
 

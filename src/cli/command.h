@@ -20,7 +20,8 @@ typedef enum CommandBit {
     COMMAND_DIFF = 1 << 3,
     COMMAND_CHECK = 1 << 4,
     COMMAND_SCHEMA = 1 << 5,
-    ALL_COMMANDS = (1 << 6) - 1
+    COMMAND_EXPLAIN = 1 << 6,
+    ALL_COMMANDS = (1 << 7) - 1
 } CommandBit;
 
 /* What the operands of a command are, for the completion of the shell. */
@@ -91,6 +92,7 @@ int runRender(const Arguments *arguments);
 int runPov(const Arguments *arguments);
 int runCompare(const Arguments *arguments);
 int runDiff(const Arguments *arguments);
+int runExplain(const Arguments *arguments);
 int runCheck(const Arguments *arguments);
 int runSchema(const Arguments *arguments);
 

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/drawing.h"
 #include "cli/scene_input.h"
+#include "cli/shell_words.h"
 #include "cli/terminal.h"
 #include "compare/difference.h"
 #include "compare/metrics.h"
@@ -107,24 +108,6 @@ static void nameJob(Run *run, size_t number)
     textAppendFormat(&job->povray, "%s-povray.png", textString(&job->name));
     textAppendFormat(&job->difference, "%s-difference.png", textString(&job->name));
     textAppendFormat(&job->pov, "%s.pov", textString(&job->name));
-}
-
-/* Append a word of a command as a shell reads it. */
-static void appendShellWord(Text *text, const char *word)
-{
-    static const char HARMLESS[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-    if (*word != '\0' && strspn(word, HARMLESS) == strlen(word)) {
-        textAppend(text, word);
-        return;
-    }
-    textAppend(text, "'");
-    for (const char *c = word; *c != '\0'; c++) {
-        if (*c == '\'')
-            textAppend(text, "'\\''");
-        else
-            textAppendBytes(text, c, 1);
-    }
-    textAppend(text, "'");
 }
 
 /* How many words the option --out takes at this place of the command line: 0 where it does not stand. */
