@@ -80,7 +80,7 @@ _eclairage()
   # Options and operands, by the command.
   for ((i = 1; i < COMP_CWORD; i++)); do
     case ${COMP_WORDS[i]} in
-    render|pov|compare|diff|check|schema)
+    render|pov|compare|diff|explain|check|schema)
       command=${COMP_WORDS[i]}
       break
       ;;
@@ -104,6 +104,10 @@ _eclairage()
     options='-o --output --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='*.png'
     ;;
+  explain)
+    options='--out --width --height --model --samples --threads --engine --json -q --quiet --color -h --help --version'
+    operands='@(*.yaml|*.yml)'
+    ;;
   check)
     options='--json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
@@ -112,7 +116,7 @@ _eclairage()
     options='-q --quiet --color -h --help --version'
     ;;
   *)
-    options='render pov compare diff check schema --help --version'
+    options='render pov compare diff explain check schema --help --version'
     ;;
   esac
 

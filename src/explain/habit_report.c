@@ -84,6 +84,24 @@ static void writeMarkedWords(HabitPage *page, const char *words)
     }
 }
 
+/* Write the name of a file, with places to break the line behind its slashes. */
+static void writeBreakableName(HabitPage *page, const char *name)
+{
+    for (const char *part = name; *part != '\0';) {
+        size_t length = strcspn(part, "/");
+        length += part[length] == '/';
+        Text plain = {0};
+        textAppendBytes(&plain, part, length);
+        if (plain.failed)
+            page->status = statusOutOfMemory();
+        writeWords(page, textString(&plain));
+        textFree(&plain);
+        part += length;
+        if (*part != '\0')
+            writeMarkup(page, "<wbr>");
+    }
+}
+
 static void writeNumber(HabitPage *page, double value)
 {
     Text text = {0};
@@ -94,7 +112,8 @@ static void writeNumber(HabitPage *page, double value)
 /* "+0.01234", with the minus sign of typesetting. */
 static void appendChange(Text *text, double change)
 {
-    textAppend(text, change > 0 ? "+" : "\xE2\x88\x92");
+    double shown = round(change * 1e5);
+    textAppend(text, shown > 0 ? "+" : shown < 0 ? "\xE2\x88\x92" : "");
     appendFixed(text, fabs(change), DECIMALS);
 }
 
@@ -336,7 +355,7 @@ static void writeSummary(HabitPage *page)
 {
     const HabitStudy *study = page->report->study;
     writeMarkup(page, "<section class=\"hero\">\n<h1>What POV-Ray’s habits make of ");
-    writeWords(page, page->report->name);
+    writeBreakableName(page, page->report->name);
     writeMarkup(page, "</h1>\n<p>The scene was written as POV-Ray is usually written, and drawn. Against our "
                       "picture the root mean square error is <b>");
     writeNumber(page, rmseAfter(study, 0));
@@ -397,8 +416,9 @@ static void writePage(HabitPage *page)
 {
     writeHead(page);
     writeSummary(page);
-    writeMarkup(page, "<section class=\"panel\">\n<h2>All of them, taken back one after another</h2>\n"
-                      "<div class=\"waterfall\">\n<div>\n");
+    writeMarkup(
+        page, "<section class=\"panel\" id=\"habits\">\n<h2>All of them, taken back one after another</h2>\n"
+              "<div class=\"waterfall\">\n<div>\n");
     writeChart(page);
     writeMarkup(page, "<p class=\"legend\"><span><i class=\"key-left\"></i>left</span><span>"
                       "<i class=\"key-taken\"></i>taken back</span><span><i class=\"key-added\"></i>"
@@ -407,7 +427,7 @@ static void writePage(HabitPage *page)
     writeMarkup(page,
                 "</div>\n<p class=\"soft\">A habit can hide another: then the difference grows when it is "
                 "taken back, and what habits change together is not the sum of what each changes "
-                "alone.</p>\n</section>\n<div id=\"habits\"></div>\n");
+                "alone.</p>\n</section>\n");
     for (int i = 0; i < page->report->study->count && statusIsOk(&page->status); i++)
         writeHabit(page, i);
     writeMarkup(page, "</main>\n<footer>Éclairage " ECLAIRAGE_VERSION "</footer>\n<script>\n");

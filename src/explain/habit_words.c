@@ -323,7 +323,8 @@ static void appendSequence(const HabitStudy *study, bool color, Text *text)
         double after = pictureAfterHabits(study, i + 1)->metrics.rmse;
         appendName(text, povHabitName(study->order[i]), " taken back");
         appendColumn(text, after);
-        textAppend(text, after > before ? "  (+" : "  (-");
+        double change = round((after - before) * 1e5);
+        textAppend(text, change > 0 ? "  (+" : change < 0 ? "  (-" : "  ( ");
         appendFixed(text, fabs(after - before), DECIMALS);
         textAppend(text, ")");
         appendBar(text, after, largest);
@@ -370,8 +371,7 @@ void writeHabitsText(const HabitStudy *study, const Scene *scene, const char *na
         appendHabitText(study, scene, i, &words);
         if (!isHabitSeen(study, i))
             textAppend(&words, " In this picture nothing of it is seen.");
-        textAppendFormat(text, "\n%d. %s%s%s:", i + 1, color ? "\033[1m" : "", habit,
-                         color ? "\033[0m" : "");
+        textAppendFormat(text, "\n%d. %s%s%s:", i + 1, color ? "\033[1m" : "", habit, color ? "\033[0m" : "");
         appendParagraph(text, textString(&words), strlen(habit) + 5, color);
         textAppendFormat(text, "%*s", INDENT, "");
         text->failed |= words.failed;
