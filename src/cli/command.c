@@ -55,7 +55,7 @@ const Command COMMANDS[] = {
      "after another, the largest first. Each comes with the line of POV-Ray to write "
      "instead. In the matched form, which `pov` writes, nothing is left.\n"
      "\n"
-     "Differences are root mean square errors of 16-bit linear samples. With --out DIR "
+     "Differences are root mean square errors of 16-bit linear samples. With --out, DIR "
      "gets index.html, a page that needs nothing else, results.json, the pictures, their "
      "differences and the .pov of each; without it no file is written.",
      runExplain},
