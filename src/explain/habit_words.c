@@ -200,6 +200,10 @@ Status explainHabits(const HabitStudy *study, const Scene *scene, Explanations *
         Explanation *item = addExplanation(&made, CAUSE_UNKNOWN, matched->rmse);
         textAppend(&item->text, "With every habit taken back the two pictures still differ: that is none of "
                                 "POV-Ray's habits.");
+        if (scene->render.samples > 1)
+            textAppend(&item->text, " Where one of several rays in a pixel is brighter than 1, POV-Ray's "
+                                    "picture does not tell their mean: with `--samples 1` that is out of "
+                                    "the way.");
         textAppendFormat(&item->where, "the pixel (%d, %d), where they differ most", matched->worst.x,
                          matched->worst.y);
     }
@@ -337,15 +341,19 @@ static void appendSequence(const HabitStudy *study, bool color, Text *text)
 
 void appendHabitSum(const HabitStudy *study, Text *text)
 {
-    double native = pictureAfterHabits(study, 0)->metrics.rmse, left = habitPicture(study, 0)->metrics.rmse;
+    double native = pictureAfterHabits(study, 0)->metrics.rmse;
+    const Metrics *matched = &habitPicture(study, 0)->metrics;
     textAppend(text, "explained ");
-    appendFixed(text, fmax(native - left, 0), DECIMALS);
+    appendFixed(text, fmax(native - matched->rmse, 0), DECIMALS);
     textAppend(text, " of ");
     appendFixed(text, native, DECIMALS);
     textAppend(text, ", left ");
-    appendRounded(text, left, 2);
-    if (left > 0)
-        textAppend(text, left > HABIT_STEP ? ", which is none of these habits" : ", which is rounding");
+    appendRounded(text, matched->rmse, 2);
+    if (matched->rmse > HABIT_STEP)
+        textAppendFormat(text, ", which is none of these habits, most of it at the pixel (%d, %d)",
+                         matched->worst.x, matched->worst.y);
+    else if (matched->rmse > 0)
+        textAppend(text, ", which is rounding");
 }
 
 void writeHabitsText(const HabitStudy *study, const Scene *scene, const char *name, bool color, Text *text)

@@ -76,6 +76,16 @@ load helpers
     hasText "$out" "In this picture nothing of it is seen."
 }
 
+@test "a scene with nothing in it has no causes" {
+    needs povray
+    echo 'image: {width: 40, height: 30}' >s.yaml
+    try 0 explain s.yaml --json
+    json '.causes == []'
+    try 0 explain s.yaml --out r
+    [ "$(tail -1 "$out")" = "explained 0.00000 of 0.00000, left 0" ]
+    not grep -q nan r/index.html
+}
+
 @test "options: size, model, samples, engine" {
     needs povray
     makeScene s.yaml
