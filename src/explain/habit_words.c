@@ -350,7 +350,7 @@ void appendHabitSum(const HabitStudy *study, Text *text)
     textAppend(text, ", left ");
     appendRounded(text, matched->rmse, 2);
     if (matched->rmse > HABIT_STEP)
-        textAppendFormat(text, ", which is none of these habits, most of it at the pixel (%d, %d)",
+        textAppendFormat(text, ", which is none of these habits; look at the pixel (%d, %d)",
                          matched->worst.x, matched->worst.y);
     else if (matched->rmse > 0)
         textAppend(text, ", which is rounding");
