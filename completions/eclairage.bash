@@ -92,7 +92,7 @@ _eclairage()
   # Options and operands, by the command.
   for ((i = 1; i < COMP_CWORD; i++)); do
     case ${COMP_WORDS[i]} in
-    render|pov|compare|diff|why|check|schema)
+    render|pov|compare|diff|explain|why|check|schema)
       command=${COMP_WORDS[i]}
       break
       ;;
@@ -116,6 +116,10 @@ _eclairage()
     options='-o --output --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='*.png'
     ;;
+  explain)
+    options='--out --width --height --model --samples --threads --engine --json -q --quiet --color -h --help --version'
+    operands='@(*.yaml|*.yml|*.png)'
+    ;;
   why)
     options='--svg --width --height --model --samples --encoding --bit-depth --json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
@@ -128,7 +132,7 @@ _eclairage()
     options='-q --quiet --color -h --help --version'
     ;;
   *)
-    options='render pov compare diff why check schema --help --version'
+    options='render pov compare diff explain why check schema --help --version'
     ;;
   esac
 

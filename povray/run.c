@@ -14,6 +14,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -272,6 +273,19 @@ static Status drawIn(const char *folder, const PovraySettings *settings, const c
     return status;
 }
 
+/* The same where POV-Ray took the mean of values that it then raised to the power gamma. */
+static void takeOutMiddleBeforeGamma(const Image *mean, Image *middle, int n, double gamma)
+{
+    double rays = (double)n * n, largest = imageMaxSample(middle);
+    size_t count = 3 * (size_t)middle->width * (size_t)middle->height;
+    for (size_t i = 0; i < count; i++) {
+        double all = pow(mean->samples[i] / largest, 1 / gamma);
+        double one = pow(middle->samples[i] / largest, 1 / gamma);
+        double others = fmin(fmax(((rays + 1) * all - one) / rays, 0), 1);
+        middle->samples[i] = (uint16_t)(pow(others, gamma) * largest + 0.5);
+    }
+}
+
 /* Of the mean of n^2 + 1 rays and the one in the middle, the mean of the n^2 others:
  * ((n^2 + 1) mean - middle) / n^2, into middle. */
 static void takeOutMiddle(const Image *mean, Image *middle, int n)
@@ -312,7 +326,10 @@ Status runPovray(const char *pov, const PovraySettings *settings, Image *image)
         Image mean;
         status = drawIn(folder, settings, picture.data, true, &mean);
         if (statusIsOk(&status)) {
-            takeOutMiddle(&mean, image, settings->samples);
+            if (settings->gamma == 0 || settings->gamma == 1)
+                takeOutMiddle(&mean, image, settings->samples);
+            else
+                takeOutMiddleBeforeGamma(&mean, image, settings->samples, settings->gamma);
             freeImage(&mean);
         } else {
             freeImage(image);

@@ -12,6 +12,7 @@ typedef struct PovraySettings {
     int bitDepth; /* 8 or 16 */
     Encoding encoding;
     int samples;           /* n for the mean of n x n rays a pixel; above 1 only with linear encoding */
+    double gamma;          /* the .pov's assumed_gamma, which counts with samples above 1; 0 is 1 */
     int threads;           /* POV-Ray's work threads, at least 1 */
     double timeoutSeconds; /* then it is killed: STATUS_POVRAY */
     bool onePixel;         /* draw only the pixel (x, y), from 0 at the top left; all others are black */

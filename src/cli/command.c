@@ -49,9 +49,9 @@ const Command COMMANDS[] = {
      "eclairage compare scene.yaml --per-term\twhich term disagrees?\n",
      "Draws each scene twice, with this program and with POV-Ray, measures how far the "
      "two pictures lie apart (16 bits, linear) and judges by the limits under `compare` "
-     "in the scene, which the options override. DIR gets index.html, a page that needs "
-     "nothing else, results.json, and for each scene both pictures, their difference and "
-     "the .pov.\n"
+     "in the scene, which the options override. DIR, which is eclairage-report where none "
+     "is given, gets index.html, a page that needs nothing else, results.json, and for "
+     "each scene both pictures, their difference and the .pov.\n"
      "\n"
      "With --per-term each term that a scene has (ambient, emission, diffuse, specular, "
      "background) is drawn by both from a scene of its own and held to the same limits, "
@@ -67,6 +67,29 @@ const Command COMMANDS[] = {
      "depth and encoding; alpha is ignored. -o writes a picture of the differences; with "
      "-o - that picture has standard output, and the words go to standard error.",
      runDiff},
+    {COMMAND_EXPLAIN, "explain", OPERANDS_SCENE_OR_PICTURES, "SCENE.yaml [PICTURE.png] | A.png B.png", 1, 2,
+     "say why pictures differ",
+     "eclairage explain scene.yaml\tPOV-Ray's habits, one by one\n"
+     "eclairage explain scene.yaml --out why\twith a page, why/index.html\n"
+     "eclairage explain scene.yaml mine.png\twhat is wrong with mine?\n"
+     "eclairage explain mine.png reference.png\tthe same, without the scene\n",
+     "With a picture: finds the mistake, or the two, that turn the right picture into it "
+     "(gamma, exposure, mirrored, no shadows, another falloff or highlight, acne, ...), and "
+     "says what is left when it is taken into account and what to look at. Mistakes in how "
+     "light is computed are found only with the scene. Where nothing fits, it says so.\n"
+     "\n"
+     "With a scene alone: writes it as POV-Ray is usually written, with its default finish, "
+     "fade_distance 1, a left-handed camera and so on, and measures what each of these "
+     "habits alone changes in the picture, and what is left when they are taken back one "
+     "after another, the largest first. Each comes with the line of POV-Ray to write "
+     "instead. In the matched form, which `pov` writes, nothing is left.\n"
+     "\n"
+     "With --out, DIR gets index.html, a page that needs nothing else, results.json, the "
+     "pictures, their differences and the .pov of each; without it no file is written. "
+     "Differences are root mean square errors of the samples: with a scene alone 16-bit "
+     "linear ones, else those of the picture. The exit code is 0 when all is told, whatever "
+     "was found.",
+     runExplain},
     {COMMAND_WHY, "why", OPERANDS_PIXEL, "SCENE.yaml X Y", 3, 3, "tell the whole story of one pixel",
      "eclairage why scene.yaml 250 240\tevery number of its colour\n"
      "eclairage why scene.yaml 250 240 --svg side.svg\tand a drawing of the rays\n"

@@ -21,7 +21,8 @@ typedef enum CommandBit {
     COMMAND_CHECK = 1 << 4,
     COMMAND_SCHEMA = 1 << 5,
     COMMAND_WHY = 1 << 6,
-    ALL_COMMANDS = (1 << 7) - 1
+    COMMAND_EXPLAIN = 1 << 7,
+    ALL_COMMANDS = (1 << 8) - 1
 } CommandBit;
 
 /* What the operands of a command are, for the completion of the shell. */
@@ -29,6 +30,7 @@ typedef enum OperandKind {
     OPERANDS_NONE,
     OPERANDS_SCENES,
     OPERANDS_PICTURES,
+    OPERANDS_SCENE_OR_PICTURES,
     OPERANDS_PIXEL /* a scene, and two whole numbers */
 } OperandKind;
 
@@ -96,6 +98,7 @@ int runRender(const Arguments *arguments);
 int runPov(const Arguments *arguments);
 int runCompare(const Arguments *arguments);
 int runDiff(const Arguments *arguments);
+int runExplain(const Arguments *arguments);
 int runCheck(const Arguments *arguments);
 int runSchema(const Arguments *arguments);
 int runWhy(const Arguments *arguments);

@@ -12,6 +12,7 @@
 #include "cli/compare_job.h"
 #include "cli/drawing.h"
 #include "cli/scene_input.h"
+#include "cli/shell_words.h"
 #include "cli/terminal.h"
 #include "compare/report.h"
 #include "compare/words.h"
@@ -126,24 +127,6 @@ static void nameJob(Run *run, size_t number)
     }
     textFree(&stem);
     namePictureFiles(textString(&job->name), &job->files);
-}
-
-/* Append a word of a command as a shell reads it. */
-static void appendShellWord(Text *text, const char *word)
-{
-    static const char HARMLESS[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-    if (*word != '\0' && strspn(word, HARMLESS) == strlen(word)) {
-        textAppend(text, word);
-        return;
-    }
-    textAppend(text, "'");
-    for (const char *c = word; *c != '\0'; c++) {
-        if (*c == '\'')
-            textAppend(text, "'\\''");
-        else
-            textAppendBytes(text, c, 1);
-    }
-    textAppend(text, "'");
 }
 
 /* How many words the option --out takes at this place of the command line: 0 where it does not stand. */

@@ -240,6 +240,8 @@ void writeBashCompletion(Text *text)
             textAppend(text, "    operands='@(*.yaml|*.yml)'\n");
         else if (COMMANDS[i].operandKind == OPERANDS_PICTURES)
             textAppend(text, "    operands='*.png'\n");
+        else if (COMMANDS[i].operandKind == OPERANDS_SCENE_OR_PICTURES)
+            textAppend(text, "    operands='@(*.yaml|*.yml|*.png)'\n");
         textAppend(text, "    ;;\n");
     }
     textAppend(text, "  *)\n    options='");

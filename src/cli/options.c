@@ -21,25 +21,26 @@ enum {
 const Option OPTIONS[] = {
     {"output", 'o', COMMAND_RENDER | COMMAND_POV | COMMAND_DIFF, VALUE_FILE, .placeholder = "FILE",
      FIELD(output), .help = "write to FILE; - is standard output"},
-    {"out", 0, COMMAND_COMPARE, VALUE_FOLDER, .placeholder = "DIR", FIELD(folder),
-     .help = "write the report and the pictures to DIR (eclairage-report)"},
+    {"out", 0, COMMAND_COMPARE | COMMAND_EXPLAIN, VALUE_FOLDER, .placeholder = "DIR", FIELD(folder),
+     .help = "write the report and the pictures to DIR"},
     {"aov", 0, COMMAND_RENDER, VALUE_AOVS, .placeholder = "LIST", FIELD(aovs),
      .help = "draw these as well, names with commas between, or all"},
     {"per-term", 0, COMMAND_COMPARE, VALUE_NONE, FIELD(perTerm),
      .help = "compare each term of the light as well; one that differs makes the scene differ"},
     {"svg", 0, COMMAND_WHY, VALUE_FILE, .placeholder = "FILE", FIELD(svg),
      .help = "draw the rays from the side to FILE; - is standard output"},
-    {"width", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(width),
-     .help = "draw N pixels wide; without --height the scene's aspect is kept"},
-    {"height", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(height),
-     .help = "draw N pixels high; without --width the scene's aspect is kept"},
-    {"model", 0, SIZED, VALUE_CHOICE, .choices = {"simple", "lambert", "phong", "blinn_phong"}, FIELD(model),
+    {"width", 0, SIZED | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535,
+     FIELD(width), .help = "draw N pixels wide; without --height the scene's aspect is kept"},
+    {"height", 0, SIZED | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535,
+     FIELD(height), .help = "draw N pixels high; without --width the scene's aspect is kept"},
+    {"model", 0, SIZED | COMMAND_EXPLAIN, VALUE_CHOICE,
+     .choices = {"simple", "lambert", "phong", "blinn_phong"}, FIELD(model),
      .help = "shade with this model, whatever the scene says"},
-    {"samples", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 64, FIELD(samples),
-     .help = "draw each pixel as the mean of N x N samples"},
-    {"threads", 0, DRAWING, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 256, FIELD(threads),
-     .help = "draw on N threads (one for each processor); the picture is the same"},
-    {"engine", 0, DRAWING, VALUE_CHOICE, .choices = {"fast", "reference"}, FIELD(engine),
+    {"samples", 0, SIZED | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 64,
+     FIELD(samples), .help = "draw each pixel as the mean of N x N samples"},
+    {"threads", 0, DRAWING | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 256,
+     FIELD(threads), .help = "draw on N threads (one for each processor); the picture is the same"},
+    {"engine", 0, DRAWING | COMMAND_EXPLAIN, VALUE_CHOICE, .choices = {"fast", "reference"}, FIELD(engine),
      .help = "how to draw; the picture is the same (default fast)"},
     {"encoding", 0, SIZED, VALUE_CHOICE, .choices = {"srgb", "linear"}, FIELD(encoding),
      .help = "store samples by the sRGB curve or as they are"},
@@ -57,8 +58,8 @@ const Option OPTIONS[] = {
      .help = "ask for a structural similarity of at least X"},
     {"flip", 0, JUDGING, VALUE_NUMBER, .placeholder = "X", .minimum = 0, .maximum = 1, FIELD(tolerance.flip),
      .help = "allow a mean FLIP error of at most X"},
-    {"json", 0, COMMAND_RENDER | COMMAND_COMPARE | COMMAND_DIFF | COMMAND_CHECK | COMMAND_WHY, VALUE_NONE,
-     FIELD(json), .help = "write the result as JSON to standard output"},
+    {"json", 0, ALL_COMMANDS & ~(COMMAND_POV | COMMAND_SCHEMA), VALUE_NONE, FIELD(json),
+     .help = "write the result as JSON to standard output"},
     {"quiet", 'q', ALL_COMMANDS, VALUE_NONE, FIELD(quiet),
      .help = "show no progress and no notes; errors and warnings stay"},
     {"color", 0, ALL_COMMANDS, VALUE_CHOICE, .choices = {"auto", "always", "never"}, FIELD(color),
@@ -399,15 +400,18 @@ static Status checkTogether(const Arguments *arguments)
         return statusError(STATUS_USAGE, "'%s' needs %s", command->name,
                            command->bit == COMMAND_DIFF  ? "two pictures: A.png B.png"
                            : command->bit == COMMAND_WHY ? "a scene and a pixel: SCENE.yaml X Y"
-                           : command->mostOperands > 1   ? "at least one scene: SCENE.yaml"
-                                                         : "a scene: SCENE.yaml");
+                           : command->bit == COMMAND_EXPLAIN
+                               ? "a scene, a scene and a picture, or two pictures"
+                           : command->mostOperands > 1 ? "at least one scene: SCENE.yaml"
+                                                       : "a scene: SCENE.yaml");
     if (count > command->mostOperands)
         return statusError(STATUS_USAGE, "'%s' takes %s%s, and '%s' is too many", command->name,
                            command->mostOperands == 0 ? "no operands" : "only ",
-                           command->mostOperands == 0    ? ""
-                           : command->bit == COMMAND_WHY ? "one scene and a pixel"
-                           : command->mostOperands == 1  ? "one scene"
-                                                         : "two pictures",
+                           command->mostOperands == 0        ? ""
+                           : command->bit == COMMAND_WHY     ? "one scene and a pixel"
+                           : command->bit == COMMAND_EXPLAIN ? "a scene and a picture, or two pictures"
+                           : command->mostOperands == 1      ? "one scene"
+                                                             : "two pictures",
                            arguments->operands[command->mostOperands]);
     size_t standardInputs = 0;
     size_t files = command->operandKind == OPERANDS_PIXEL ? 1 : count;

@@ -335,10 +335,9 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
     return status;
 }
 
-Status explainPictureOfScene(const Image *picture, const char *pictureName, const Scene *scene,
-                             const SceneSource *source, int threads, PictureExplanation *explanation)
+Status explainPictureOfScene(const Image *picture, const Scene *scene, const SceneSource *source, int threads,
+                             PictureExplanation *explanation)
 {
-    (void)pictureName;
     CompiledScene *compiled;
     Status status = compileScene(scene, threads, &compiled);
     if (!statusIsOk(&status))

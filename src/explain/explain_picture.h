@@ -30,7 +30,7 @@ typedef struct SceneSource {
 } SceneSource;
 
 /* Why the picture, at whose size the scene is drawn, differs from what the scene gives. As above. */
-Status explainPictureOfScene(const Image *picture, const char *pictureName, const Scene *scene,
-                             const SceneSource *source, int threads, PictureExplanation *explanation);
+Status explainPictureOfScene(const Image *picture, const Scene *scene, const SceneSource *source, int threads,
+                             PictureExplanation *explanation);
 
 #endif

@@ -437,7 +437,7 @@ static void plant(Tally *tally, const char *path, const Scene *scene, const Mist
         PictureExplanation explanation;
         SceneSource source = {.name = name};
         double start = now();
-        Status status = explainPictureOfScene(&planted, "planted", scene, &source, 2, &explanation);
+        Status status = explainPictureOfScene(&planted, scene, &source, 2, &explanation);
         if (statusIsOk(&status)) {
             judge(tally, name, "with the scene", mistakes, &explanation, now() - start);
             freePictureExplanation(&explanation);
@@ -531,7 +531,7 @@ static void honestPair(Tally *tally, const char *path, const Scene *scene, int n
     status = explainPictures(&ours, "ours", &povray, "POV-Ray's", &explanation);
     judgeHonest(tally, path, "two pictures", &status, &explanation);
     SceneSource source = {.name = path};
-    status = explainPictureOfScene(&povray, "POV-Ray's", scene, &source, 2, &explanation);
+    status = explainPictureOfScene(&povray, scene, &source, 2, &explanation);
     judgeHonest(tally, path, "POV-Ray's picture and the scene", &status, &explanation);
     freeImage(&ours);
     freeImage(&povray);
