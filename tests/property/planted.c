@@ -263,25 +263,26 @@ typedef struct Mistake {
     double stretch;     /* of the camera's right vector; 0: none */
     void (*inPicture)(Framebuffer *framebuffer);
     float (*inSamples)(float v); /* as stored, 0..1 */
+    bool isSeenAlone;            /* where it is the only one, two pictures are enough */
 } Mistake;
 
 #define FLAG(name) .studentFlag = offsetof(Student, name)
 
 static const Mistake MISTAKES[] = {
-    {"no shadows", CAUSE_SHADOW, .inScene = noShadows},
+    {"no shadows", CAUSE_SHADOW, .inScene = noShadows, .isSeenAlone = true},
     {"shadows from behind the light", CAUSE_SHADOW, FLAG(allShadows)},
     {"no falloff", CAUSE_FALLOFF, .inScene = noFalloff},
     {"falloff 1/d", CAUSE_FALLOFF, FLAG(inverse)},
     {"falloff 1/(1+d^2)", CAUSE_FALLOFF, FLAG(oneMore)},
     {"the other highlight", CAUSE_BLINN, .inScene = blinnForPhong},
-    {"shininess 10", CAUSE_SHININESS, .inScene = shininessTen},
+    {"shininess 10", CAUSE_SHININESS, .inScene = shininessTen, .isSeenAlone = true},
     {"shininess times 2.5", CAUSE_SHININESS, .inScene = shininessDoubled},
-    {"no highlight", CAUSE_SPECULAR, .inScene = noSpecular},
+    {"no highlight", CAUSE_SPECULAR, .inScene = noSpecular, .isSeenAlone = true},
     {"highlight without falloff", CAUSE_SPECULAR, FLAG(shortHighlight)},
     {"negative light", CAUSE_NEGATIVE_LIGHT, FLAG(unclamped)},
     {"absolute N.L", CAUSE_NEGATIVE_LIGHT, FLAG(absolute)},
     {"normals flipped", CAUSE_NORMALS, FLAG(flipped)},
-    {"acne", CAUSE_ACNE, .inScene = biasZero},
+    {"acne", CAUSE_ACNE, .inScene = biasZero, .isSeenAlone = true},
     {"half the light", CAUSE_EXPOSURE, .inScene = lightsHalved},
     {"ambient times diffuse", CAUSE_AMBIENT, .inScene = ambientAdded},
     {"exposure 1.7", CAUSE_EXPOSURE, .inPicture = doubleExposure},
@@ -442,7 +443,8 @@ static void plant(Tally *tally, const char *path, const Scene *scene, const Mist
             judge(tally, name, "with the scene", mistakes, &explanation, now() - start);
             freePictureExplanation(&explanation);
         }
-        if (!needsScene(first) && !needsScene(second)) {
+        bool isEnough = !needsScene(first) || (first->isSeenAlone && second == NULL);
+        if (isEnough && !needsScene(second)) {
             start = now();
             status = explainPictures(&planted, "planted", &honest, "honest", &explanation);
             if (statusIsOk(&status)) {
