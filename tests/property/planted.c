@@ -476,11 +476,11 @@ static void plantAll(Tally *tally, const char *path, const Scene *scene, int num
     int bits = number % 3 == 2 ? 16 : 8;
     Encoding encoding = number % 3 == 2 ? ENCODING_LINEAR : ENCODING_SRGB;
     for (int m = 0; m < MISTAKE_COUNT; m++)
-        if (tally->all || (m + number) % 3 == 0)
+        if (tally->all || (m + number) % 4 == 0)
             plant(tally, path, scene, &MISTAKES[m], NULL, bits, encoding);
     for (int m = 0; m < MISTAKE_COUNT; m++) {
         int other = (m + 5 + 7 * number) % MISTAKE_COUNT;
-        if ((m + number) % (tally->all ? 3 : 7) == 0 && canMeet(&MISTAKES[m], &MISTAKES[other]))
+        if ((m + number) % (tally->all ? 3 : 8) == 0 && canMeet(&MISTAKES[m], &MISTAKES[other]))
             plant(tally, path, scene, &MISTAKES[m], &MISTAKES[other], bits, encoding);
     }
 }
