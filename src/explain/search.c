@@ -15,7 +15,8 @@ enum {
     ROUGH_GRID = 6,   /* numbers of a grid that pairs are tried with */
     KEPT_PAIRS = 24,  /* of the rough fits, measured again */
     FITTED_PAIRS = 6, /* of those, fitted finely */
-    KEPT_VIEWS = 3
+    KEPT_VIEWS = 3,
+    KEPT_SINGLES = 12 /* of which one must be in a pair that needs tracing */
 };
 
 /* How much better a later hypothesis must be to take the place of an earlier, simpler one. */
@@ -239,7 +240,8 @@ static void fitPairRoughly(Search *search, Candidate *pair, double before)
 {
     const Trait *first = pair->traits[0];
     bool secondIsValue = pair->traits[1]->part == TRAIT_VALUE;
-    int stride = first->grid == NULL ? 1 : (first->gridCount + ROUGH_GRID - 1) / ROUGH_GRID;
+    bool isCheap = first->grid == NULL || first->part == TRAIT_VALUE;
+    int stride = isCheap ? 1 : (first->gridCount + ROUGH_GRID - 1) / ROUGH_GRID;
     Candidate best = *pair;
     best.rmse = INFINITY;
     for (int i = 0; i == 0 || i < first->gridCount; i += stride) {
@@ -348,8 +350,10 @@ static double roundingFloor(const Truth *truth, const Evidence *evidence)
     return coarse ? 0.4 / 255 : 0.6 / 65535;
 }
 
-/* Whether the pair is worth trying: of two views, or a view and something else, only the best views. */
-static bool isPairTried(const Search *search, const double *singles, size_t i, size_t j, double viewLimit)
+/* Whether the pair is worth trying: of two views, or a view and something else, only the best views; of two
+ * changes that both need tracing only where one of them explains much alone. */
+static bool isPairTried(const Search *search, const double *singles, size_t i, size_t j, double viewLimit,
+                        double limit)
 {
     const Trait *a = &search->traits->items[i], *b = &search->traits->items[j];
     if (!traitsCombine(a, b) || isinf(singles[i]) || isinf(singles[j]))
@@ -359,18 +363,21 @@ static bool isPairTried(const Search *search, const double *singles, size_t i, s
     bool isTurned = a->cause == CAUSE_MIRRORED || a->cause == CAUSE_FLIPPED;
     if (a->part == TRAIT_VIEW && b->part == TRAIT_VIEW)
         return isTurned; /* mirrored and flipped, or one of them shifted or stretched */
-    return !aView && !bView;
+    bool isTraced = a->part >= TRAIT_LIGHT || b->part >= TRAIT_LIGHT;
+    return !aView && !bView && (!isTraced || fmin(singles[i], singles[j]) <= limit);
 }
 
-/* The residual up to which views are among the best few. */
-static double limitOfViews(const Traits *traits, const double *viewScores)
+/* The residual up to which traits are among the so many best; views only, or all. */
+static double limitOfBest(const Traits *traits, const double *singles, bool onlyViews, int most)
 {
-    double best[KEPT_VIEWS];
-    for (int k = 0; k < KEPT_VIEWS; k++)
+    double best[KEPT_SINGLES];
+    for (int k = 0; k < most; k++)
         best[k] = INFINITY;
     for (size_t i = 0; i < traits->count; i++) {
-        double score = viewScores[i];
-        for (int k = 0; k < KEPT_VIEWS && traits->items[i].part == TRAIT_VIEW; k++) {
+        if (onlyViews && traits->items[i].part != TRAIT_VIEW)
+            continue;
+        double score = singles[i];
+        for (int k = 0; k < most; k++) {
             if (score < best[k]) {
                 double moved = best[k];
                 best[k] = score;
@@ -378,7 +385,7 @@ static double limitOfViews(const Traits *traits, const double *viewScores)
             }
         }
     }
-    return best[KEPT_VIEWS - 1];
+    return best[most - 1];
 }
 
 /* Find the best single trait, and the residual of each alone; INFINITY for those that change nothing. */
@@ -416,14 +423,16 @@ static void orderPair(const Search *search, const double *singles, Candidate *pa
 static int findPairs(Search *rough, const double *singles, Candidate kept[KEPT_PAIRS])
 {
     int count = 0;
-    double before = plainBefore(rough), limit = limitOfViews(rough->traits, singles);
+    double before = plainBefore(rough);
+    double viewLimit = limitOfBest(rough->traits, singles, true, KEPT_VIEWS);
+    double limit = limitOfBest(rough->traits, singles, false, KEPT_SINGLES);
     for (size_t i = 0; i < rough->traits->count; i++) {
         for (size_t j = 0; j < rough->traits->count && statusIsOk(&rough->status); j++) {
             /* The part that needs a new prediction goes first, so that values are fitted to it. */
             const Trait *a = &rough->traits->items[i], *b = &rough->traits->items[j];
             if (a->part < b->part || (a->part == b->part && i >= j))
                 continue;
-            if (!isPairTried(rough, singles, i, j, limit))
+            if (!isPairTried(rough, singles, i, j, viewLimit, limit))
                 continue;
             Candidate pair = {.traits = {a, b}, .count = 2};
             fitPairRoughly(rough, &pair, before);

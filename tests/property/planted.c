@@ -437,14 +437,17 @@ static void plant(Tally *tally, const char *path, const Scene *scene, const Mist
     if (isVisible(&planted, &honest)) {
         PictureExplanation explanation;
         SceneSource source = {.name = name};
+        bool isEnough = (!needsScene(first) || (first->isSeenAlone && second == NULL)) && !needsScene(second);
+        bool alternates = !tally->all && isEnough && tally->asked % 2 == 1;
         double start = now();
-        Status status = explainPictureOfScene(&planted, scene, &source, 2, &explanation);
-        if (statusIsOk(&status)) {
+        Status status = statusOk();
+        if (!alternates)
+            status = explainPictureOfScene(&planted, scene, &source, 2, &explanation);
+        if (!alternates && statusIsOk(&status)) {
             judge(tally, name, "with the scene", mistakes, &explanation, now() - start);
             freePictureExplanation(&explanation);
         }
-        bool isEnough = !needsScene(first) || (first->isSeenAlone && second == NULL);
-        if (isEnough && !needsScene(second)) {
+        if (isEnough && (tally->all || alternates)) {
             start = now();
             status = explainPictures(&planted, "planted", &honest, "honest", &explanation);
             if (statusIsOk(&status)) {
