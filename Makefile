@@ -83,20 +83,20 @@ INSTALLER = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' tools/install-dependencies.sh
 # ---------------------------------------------------------------------------------------------------------
 
 LIBRARY_SOURCES := $(filter-out src/main.c,$(wildcard src/*.c)) \
-	$(wildcard src/base/*.c src/engine/*.c src/image/*.c src/patterns/*.c src/scene/*.c src/shapes/*.c povray/*.c \
+	$(wildcard src/base/*.c src/engine/*.c src/explain/*.c src/image/*.c src/patterns/*.c src/scene/*.c src/shapes/*.c povray/*.c \
 	compare/*.c)
 # These are compiled once for each path, that is each instruction set the fast engine can choose from.
 LANE_SOURCES := $(wildcard src/engine/lanes/*.c)
 PROGRAM_SOURCES := src/main.c $(wildcard src/cli/*.c)
 # The headers a user of the library includes, and the ones they bring; the others are its own affair.
 PUBLIC_HEADERS := $(wildcard src/*.h src/base/*.h src/patterns/*.h src/shapes/*.h) src/image/image.h \
-	src/engine/engine.h src/scene/load.h src/scene/diagnostics.h src/scene/source_text.h povray/export.h povray/run.h \
+	src/engine/engine.h src/scene/load.h src/scene/diagnostics.h src/scene/source_text.h povray/export.h povray/pov_habits.h povray/run.h \
 	compare/metrics.h compare/difference.h compare/report.h
 # Files in tests/unit that are not test programs are helpers, linked into each of them.
 UNIT_SOURCES := $(wildcard tests/unit/test_*.c)
 UNIT_HELPERS := $(filter-out $(UNIT_SOURCES),$(wildcard tests/unit/*.c))
 # The programs in tests/property, and the helpers that each of them is linked with.
-PROPERTY_PROGRAMS := crosscheck engines
+PROPERTY_PROGRAMS := crosscheck engines planted stories
 PROPERTY_SOURCES := $(wildcard tests/property/*.c)
 PROPERTY_HELPERS := $(filter-out $(PROPERTY_PROGRAMS:%=tests/property/%.c),$(PROPERTY_SOURCES)) tests/unit/both_engines.c
 
@@ -142,6 +142,7 @@ $(BUILD)/obj/src/engine/bvh_build.o: OPTIMIZE = $(LANE_OPTIMIZE)
 
 # The report's page is assembled into this object, which the compiler's list of dependencies does not say.
 $(BUILD)/obj/compare/report_template.o: $(wildcard compare/report*.html compare/report*.css compare/report*.js)
+$(BUILD)/obj/src/explain/habit_report.o: $(wildcard src/explain/habit_report.css src/explain/habit_report.js)
 
 $(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
 	$(call say,TEST,$@)

@@ -76,6 +76,14 @@ static void writeBlock(Page *page, const char *name, size_t length, const char *
         for (page->reason = 0; page->reason < result->verdict.reasonCount && page->reason < MAX_REASONS;
              page->reason++)
             writeTemplate(page, start, end);
+    } else if (nameIs(name, length, "terms") || nameIs(name, length, "differing-terms")) {
+        bool all = nameIs(name, length, "terms");
+        for (size_t i = 0; i < result->termCount; i++) {
+            page->term = &result->terms[i];
+            if (all || !page->term->verdict.pass)
+                writeTemplate(page, start, end);
+        }
+        page->term = NULL;
     } else if (nameIs(name, length, "metrics")) {
         for (int i = 0; i < METRIC_ROW_COUNT; i++) {
             MetricRow row = makeMetricRow(result, i);
@@ -94,6 +102,8 @@ static void writeBlock(Page *page, const char *name, size_t length, const char *
             applies = outcome == SCENE_FAILED;
         else if (nameIs(name, length, "differs"))
             applies = outcome == SCENE_DIFFERS;
+        else if (nameIs(name, length, "per-term"))
+            applies = result->termCount > 0;
         else if (nameIs(name, length, "embedded"))
             applies = canEmbed(page);
         else if (nameIs(name, length, "linked"))

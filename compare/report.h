@@ -11,6 +11,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* What a comparison of one term of a scene's light gave: of the same scene with the sources of all other
+ * terms set to zero. */
+typedef struct TermResult {
+    const char *term; /* "diffuse" */
+    Metrics metrics;
+    Verdict verdict; /* by the scene's tolerance */
+    const char *oursFile, *povrayFile, *differenceFile, *povFile;
+} TermResult;
+
 /* What a comparison of one scene gave. Strings belong to the caller. */
 typedef struct SceneResult {
     const char *scene; /* the path as given */
@@ -22,6 +31,10 @@ typedef struct SceneResult {
     /* Names of the files, relative to the report's folder. */
     const char *oursFile, *povrayFile, *differenceFile, *povFile;
     const char *command; /* reproduces this scene's comparison */
+    /* With --per-term, those that the scene has; one that differs makes the scene differ. */
+    const TermResult *terms;
+    size_t termCount;
+    bool perTerm; /* whether they were asked for */
 } SceneResult;
 
 /* Append the measured fields of `diff --json`, "width" to "flip" in that order, to an open object; NAN is

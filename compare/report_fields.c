@@ -373,14 +373,6 @@ static void writeDifference(Page *page)
     writePicture(page, pageScene(page)->differenceFile);
 }
 
-/* How each field gets its value: as text, escaped unless it is markup, or by writing itself. */
-typedef struct Field {
-    const char *name;
-    void (*append)(const Page *page, Text *text);
-    void (*write)(Page *page);
-    bool markup;
-} Field;
-
 static const Field fields[] = {
     {.name = "style", .append = appendStyle, .markup = true},
     {.name = "script", .append = appendScript, .markup = true},
@@ -430,27 +422,35 @@ static const Field fields[] = {
     {.name = "metric-mark", .append = appendMetricMark},
 };
 
+static const Field *findField(const Field *table, size_t count, const char *name, size_t length)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strlen(table[i].name) == length && memcmp(name, table[i].name, length) == 0)
+            return &table[i];
+    return NULL;
+}
+
 bool writeField(Page *page, const char *name, size_t length)
 {
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-        if (strlen(fields[i].name) != length || memcmp(name, fields[i].name, length) != 0)
-            continue;
-        if (fields[i].write != NULL) {
-            fields[i].write(page);
-            return true;
-        }
-        Text value = {0}, html = {0};
-        fields[i].append(page, &value);
-        if (!fields[i].markup)
-            textAppendHtml(&html, textString(&value));
-        const Text *result = fields[i].markup ? &value : &html;
-        if (value.failed || html.failed)
-            page->status = statusOutOfMemory();
-        else
-            fwrite(textString(result), 1, result->length, page->stream);
-        textFree(&value);
-        textFree(&html);
+    const Field *field = findField(fields, sizeof fields / sizeof *fields, name, length);
+    if (field == NULL && page->term != NULL)
+        field = findField(termFields, termFieldCount, name, length);
+    if (field == NULL)
+        return false;
+    if (field->write != NULL) {
+        field->write(page);
         return true;
     }
-    return false;
+    Text value = {0}, html = {0};
+    field->append(page, &value);
+    if (!field->markup)
+        textAppendHtml(&html, textString(&value));
+    const Text *result = field->markup ? &value : &html;
+    if (value.failed || html.failed)
+        page->status = statusOutOfMemory();
+    else
+        fwrite(textString(result), 1, result->length, page->stream);
+    textFree(&value);
+    textFree(&html);
+    return true;
 }

@@ -54,6 +54,35 @@ static void jsonFile(JsonWriter *json, const char *key, const char *name)
         jsonNull(json);
 }
 
+static void jsonFiles(JsonWriter *json, const char *ours, const char *povray, const char *difference,
+                      const char *pov)
+{
+    jsonKey(json, "files");
+    jsonObject(json);
+    jsonFile(json, "ours", ours);
+    jsonFile(json, "povray", povray);
+    jsonFile(json, "difference", difference);
+    jsonFile(json, "pov", pov);
+    jsonEndObject(json);
+}
+
+static void jsonTerms(JsonWriter *json, const SceneResult *result)
+{
+    jsonKey(json, "terms");
+    jsonArray(json);
+    for (size_t i = 0; i < result->termCount; i++) {
+        const TermResult *term = &result->terms[i];
+        jsonObject(json);
+        jsonKeyString(json, "term", term->term);
+        jsonKeyBool(json, "pass", term->verdict.pass);
+        jsonMetrics(json, &term->metrics);
+        jsonReasons(json, &term->verdict);
+        jsonFiles(json, term->oursFile, term->povrayFile, term->differenceFile, term->povFile);
+        jsonEndObject(json);
+    }
+    jsonEndArray(json);
+}
+
 static void jsonScene(JsonWriter *json, const SceneResult *result)
 {
     jsonObject(json);
@@ -76,13 +105,9 @@ static void jsonScene(JsonWriter *json, const SceneResult *result)
     jsonSeconds(json, "povray", result->povraySeconds);
     jsonSeconds(json, "compare", result->compareSeconds);
     jsonEndObject(json);
-    jsonKey(json, "files");
-    jsonObject(json);
-    jsonFile(json, "ours", result->oursFile);
-    jsonFile(json, "povray", result->povrayFile);
-    jsonFile(json, "difference", result->differenceFile);
-    jsonFile(json, "pov", result->povFile);
-    jsonEndObject(json);
+    jsonFiles(json, result->oursFile, result->povrayFile, result->differenceFile, result->povFile);
+    if (result->perTerm)
+        jsonTerms(json, result);
     jsonEndObject(json);
 }
 
@@ -148,6 +173,25 @@ static void appendDifferences(Text *text, const Metrics *metrics, unsigned maxSa
     }
 }
 
+/* Which terms disagree and how, a line each; else one line that all agree. */
+static void appendTerms(Text *text, const SceneResult *result)
+{
+    for (size_t i = 0; i < result->termCount; i++) {
+        const TermResult *term = &result->terms[i];
+        if (term->verdict.pass)
+            continue;
+        textAppendFormat(text, "        the %s term disagrees: ", term->term);
+        appendDifferences(text, &term->metrics, 65535, 1, 1);
+        textAppendFormat(text, " at (%d, %d)\n", term->metrics.worst.x, term->metrics.worst.y);
+    }
+    if (countDifferingTerms(result) > 0)
+        return;
+    textAppend(text, result->termCount == 0 ? "        no term: the scene is black\n"
+                                            : "        each term agrees: ");
+    for (size_t i = 0; i < result->termCount; i++)
+        textAppendFormat(text, "%s%s", result->terms[i].term, i + 1 < result->termCount ? ", " : "\n");
+}
+
 enum {
     MAX_NAME_COLUMNS = 60 /* a longer name pushes its own line to the right, not all of them */
 };
@@ -184,6 +228,8 @@ void writeResultsText(const SceneResult *results, size_t count, bool color, Text
                 textAppendFormat(text, " at (%d, %d)", result->metrics.worst.x, result->metrics.worst.y);
         }
         textAppend(text, "\n");
+        if (result->perTerm && outcome != SCENE_FAILED)
+            appendTerms(text, result);
     }
 
     /* Close with the verdict. */

@@ -9,7 +9,16 @@ SceneOutcome findSceneOutcome(const SceneResult *result)
 {
     if (!statusIsOk(&result->status))
         return SCENE_FAILED;
-    return result->verdict.pass ? SCENE_AGREES : SCENE_DIFFERS;
+    return result->verdict.pass && countDifferingTerms(result) == 0 ? SCENE_AGREES : SCENE_DIFFERS;
+}
+
+size_t countDifferingTerms(const SceneResult *result)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < result->termCount; i++)
+        if (!result->terms[i].verdict.pass)
+            found++;
+    return found;
 }
 
 size_t countScenes(const SceneResult *results, size_t count, SceneOutcome outcome)

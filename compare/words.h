@@ -20,6 +20,9 @@ typedef enum SceneOutcome {
 
 SceneOutcome findSceneOutcome(const SceneResult *result);
 
+/* How many of its terms differ. */
+size_t countDifferingTerms(const SceneResult *result);
+
 /* How many of the results have this outcome. */
 size_t countScenes(const SceneResult *results, size_t count, SceneOutcome outcome);
 

@@ -25,6 +25,18 @@ _eclairage()
       mapfile -t COMPREPLY < <(compgen -d -- "$word")
       return
       ;;
+    --aov)
+      local given=''
+      [[ $word != *,* ]] || given=${word%,*},
+      compopt -o nospace 2>/dev/null
+      mapfile -t COMPREPLY < <(compgen -P "$given" -W 'normal depth id albedo ambient emission diffuse specular background reflection transmission shadow all' -- "${word##*,}")
+      return
+      ;;
+    --svg)
+      compopt -o filenames 2>/dev/null
+      mapfile -t COMPREPLY < <(compgen -f -- "$word")
+      return
+      ;;
     --width)
       return
       ;;
@@ -80,7 +92,7 @@ _eclairage()
   # Options and operands, by the command.
   for ((i = 1; i < COMP_CWORD; i++)); do
     case ${COMP_WORDS[i]} in
-    render|pov|compare|diff|check|schema)
+    render|pov|compare|diff|explain|why|check|schema)
       command=${COMP_WORDS[i]}
       break
       ;;
@@ -89,7 +101,7 @@ _eclairage()
   local options operands=
   case $command in
   render)
-    options='-o --output --width --height --model --samples --threads --engine --encoding --bit-depth --json -q --quiet --color -h --help --version'
+    options='-o --output --aov --width --height --model --samples --threads --engine --encoding --bit-depth --json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
     ;;
   pov)
@@ -97,12 +109,20 @@ _eclairage()
     operands='@(*.yaml|*.yml)'
     ;;
   compare)
-    options='--out --width --height --model --samples --threads --engine --encoding --bit-depth --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
+    options='--out --per-term --width --height --model --samples --threads --engine --encoding --bit-depth --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='@(*.yaml|*.yml)'
     ;;
   diff)
     options='-o --output --fail --fail-percent --hard-fail --rmse --ssim --flip --json -q --quiet --color -h --help --version'
     operands='*.png'
+    ;;
+  explain)
+    options='--out --width --height --model --samples --threads --engine --json -q --quiet --color -h --help --version'
+    operands='@(*.yaml|*.yml|*.png)'
+    ;;
+  why)
+    options='--svg --width --height --model --samples --encoding --bit-depth --json -q --quiet --color -h --help --version'
+    operands='@(*.yaml|*.yml)'
     ;;
   check)
     options='--json -q --quiet --color -h --help --version'
@@ -112,7 +132,7 @@ _eclairage()
     options='-q --quiet --color -h --help --version'
     ;;
   *)
-    options='render pov compare diff check schema --help --version'
+    options='render pov compare diff explain why check schema --help --version'
     ;;
   esac
 

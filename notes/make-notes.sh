@@ -170,7 +170,7 @@ makeChapter() { # NAME
         mkdir -p "$out/$language"
         contents=(--toc --toc-depth 2)
         [ "$1" != index ] || contents=()
-        runPandoc page "$NOTES/$language/$1.md" $leads --standalone --mathml ${contents[@]+"${contents[@]}"} --template "$tools/template.html" \
+        runPandoc page "$NOTES/$language/$1.md" $leads --standalone --wrap none --mathml ${contents[@]+"${contents[@]}"} --template "$tools/template.html" \
             --include-in-header "$out/head.html" --include-after-body "$out/foot.html" --output "$out/$language/$1.html"
         leads=no
     done

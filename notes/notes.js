@@ -62,7 +62,7 @@ for (const button of document.querySelectorAll('.copy')) {
 }
 
 /* What scrolls sideways can be reached with the keyboard. */
-for (const box of document.querySelectorAll('pre, .math.display, .scroll')) {
+for (const box of document.querySelectorAll('pre, .formula, .long-formula, .scroll')) {
   if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
   else box.removeAttribute('tabindex');
 }

@@ -383,7 +383,7 @@ local function pictureTag(path, alt)
   if data:sub(2, 4) == 'PNG' then
     kind, size = 'png', (' width="%d" height="%d"'):format(string.unpack('>I4I4', data, 17))
   end
-  return ('<img alt="%s"%s decoding="async" src="data:image/%s;base64,%s">'):format(escape(alt), size, kind, encoded)
+  return ('<img alt="%s"%s src="data:image/%s;base64,%s">'):format(escape(alt), size, kind, encoded)
 end
 
 -- The caption of a figure: what stands inside its directive.
@@ -771,17 +771,15 @@ local function exerciseDiv(div)
   local answers = 0
   for _, block in ipairs(div.content) do
     if block.t == 'Div' and contains(block.classes, 'answer') then answers = answers + 1 end
-    made[#made + 1] = block
   end
   if answers ~= 1 then complain('exercise %s has %d answers, not one', number, answers) end
+  -- What is returned is not walked again, only what is inside of it: hence a div around the directives.
+  made[#made + 1] = pandoc.Div(div.content, pandoc.Attr('', { 'exercise-text' }))
   made[#made + 1] = html '</section>'
   return made
 end
 local function answerDiv(div)
-  local made = { html('<details class="answer"><summary>' .. words.answer .. '</summary><div class="answer-text">') }
-  for _, block in ipairs(div.content) do made[#made + 1] = block end
-  made[#made + 1] = html '</div></details>'
-  return made
+  return { html('<details class="answer"><summary>' .. words.answer .. '</summary>'), pandoc.Div(div.content, pandoc.Attr('', { 'answer-text' })), html '</details>' }
 end
 
 -- --- The pages ----------------------------------------------------------------------------------------------
@@ -866,7 +864,7 @@ local function finish(document)
     if page.name == name then here = i end
     links[i] = { href = page.name .. '.html', title = page.title, number = numberOf(page), current = page.name == name or nil }
   end
-  meta.chapters = links
+  meta.chapters = #links > 0 and links or nil
   meta.previous = here > 1 and links[here - 1] or (here == 1 and { href = 'index.html', title = titles[language].index and titles[language].index.title or words.notes }) or nil
   meta.next = links[here + 1]
   local switch = {}
@@ -916,6 +914,12 @@ return {
     Span = function(span) if contains(span.classes, 'value') then return valueSpan(span), false end end,
     Image = function() complain('a picture is shown with the directive .picture, not with ![]()') end,
     Link = link,
+    -- A formula that is too wide for a telephone scrolls in a box of its own: browsers break none.
+    Math = function(element)
+      local class = element.mathtype == 'DisplayMath' and 'formula' or #element.text > 24 and 'long-formula'
+      if not class then return nil end
+      return { pandoc.RawInline('html', '<span class="' .. class .. '">'), element, pandoc.RawInline('html', '</span>') }
+    end,
   },
   { Pandoc = finish },
 }

@@ -7,6 +7,7 @@
  */
 #include "povray/export.h"
 
+#include "povray/pov_habits.h"
 #include "povray/pov_scale.h"
 #include "povray/pov_texture.h"
 
@@ -19,7 +20,13 @@ typedef struct Export {
     Text *pov;
     double scale; /* of all lengths */
     PovFinish finish;
+    unsigned habits; /* PovHabits that apply to the scene */
 } Export;
+
+static bool has(const Export *export, PovHabit habit)
+{
+    return (export->habits & habit) != 0;
+}
 
 /* The length in bytes of the character at the start of name if a line of a comment can show it, else 0: no
  * control character, and none of U+2000..U+207F, which end lines or turn the direction of writing. */
@@ -78,29 +85,74 @@ static void writeCommand(const Scene *scene, const char *name, Text *pov)
     textAppend(pov, "\n");
 }
 
-static void writeHeader(const Scene *scene, const char *name, double scale, Text *pov)
+/* What the file draws. */
+static void writePurpose(const Export *export)
 {
+    if (export->habits == 0) {
+        textAppend(export->pov, "// Written by eclairage: the same picture, to the last bits of 16.\n");
+        return;
+    }
+    textAppend(export->pov, "// Written by eclairage: another picture, as POV-Ray is written by habit:\n//");
+    for (int i = 0; i < POV_HABIT_COUNT; i++)
+        if (has(export, (PovHabit)(1 << i)))
+            textAppendFormat(export->pov, " %s", povHabitName((PovHabit)(1 << i)));
+    textAppend(export->pov, "\n");
+}
+
+static void writeHeader(const Export *export, const char *name)
+{
+    const Scene *scene = export->scene;
+    Text *pov = export->pov;
     writeCommand(scene, name, pov);
-    textAppend(pov, "// Written by eclairage: the same picture, to the last bits of 16.\n");
-    if (scale != 1) {
+    writePurpose(export);
+    if (export->scale != 1) {
         textAppend(pov, "// All lengths are multiplied by ");
-        textAppendPovNumber(pov, scale);
+        textAppendPovNumber(pov, export->scale);
         textAppend(pov, ", since POV-Ray ignores what is nearer than 0.001 to a surface.\n");
     }
-    if (scene->render.samples > 1)
+    if (scene->render.samples > 1 && has(export, POV_HABIT_GAMMA))
+        textAppend(pov, "// It is drawn with one ray a pixel: a mean of several cannot be said here.\n");
+    else if (scene->render.samples > 1)
         textAppendFormat(
             pov,
             "// The mean of %d x %d rays a pixel cannot be said here; `eclairage compare` works it out\n"
             "// of this picture, C, and of one with +A0.0 +AM1 +R%d -J, A: (%d A - C) / %d.\n",
             scene->render.samples, scene->render.samples, scene->render.samples,
             scene->render.samples * scene->render.samples + 1, scene->render.samples * scene->render.samples);
-    textAppendFormat(
-        pov,
-        "#version 3.7;\n"
-        "global_settings { assumed_gamma 1 max_trace_level %d adc_bailout 0 ambient_light rgb 0 }\n",
-        scene->render.maxDepth);
+    textAppend(pov, "#version 3.7;\nglobal_settings { assumed_gamma ");
+    textAppendPovNumber(pov, has(export, POV_HABIT_GAMMA) ? POV_HABIT_ASSUMED_GAMMA : 1);
+    textAppendFormat(pov, " max_trace_level %d adc_bailout 0 ambient_light rgb %d }\n",
+                     scene->render.maxDepth, has(export, POV_HABIT_AMBIENT));
     textAppend(pov, "#default { finish { ambient 0 emission 0 diffuse 1 brilliance 1 phong 0 specular 0 "
                     "reflection 0 } }\n\n");
+}
+
+/* A point at which a ray from there points. The farther the point, the less its rounding turns the ray. */
+static Vector3D pointAlong(Vector3D start, Vector3D direction)
+{
+    return addVectors(start, multVector(direction, fmax(1, norm(start))));
+}
+
+/* A camera by its angle and look_at, as it is written by hand. POV-Ray's angle is the horizontal one. */
+static void writeUsualCamera(const Export *export, const CameraFrame *frame)
+{
+    const double pi = 3.14159265358979323846;
+    const Scene *scene = export->scene;
+    const ImageSettings *image = &scene->image;
+    Text *pov = export->pov;
+    double angle = scene->camera.fov;
+    if (!has(export, POV_HABIT_ANGLE))
+        angle = atan(tan(angle * pi / 360) * image->width / image->height) * 360 / pi;
+    textAppend(pov, "camera {\n  location ");
+    textAppendPovVector(pov, frame->position, export->scale);
+    textAppendFormat(pov, "\n  right %sx*%d/%d\n  up y\n  angle ",
+                     has(export, POV_HABIT_LEFT_HANDED) ? "" : "-", image->width, image->height);
+    textAppendPovNumber(pov, angle);
+    textAppend(pov, "\n  sky ");
+    textAppendPovVector(pov, normalize(scene->camera.up), 1);
+    textAppend(pov, "\n  look_at ");
+    textAppendPovVector(pov, pointAlong(frame->position, frame->forward), export->scale);
+    textAppend(pov, "\n}\n\n");
 }
 
 /* Direction, right and up span exactly our picture plane; right-handed, and no angle. */
@@ -110,6 +162,12 @@ static void writeCamera(const Export *export)
     Text *pov = export->pov;
     CameraFrame frame = cameraFrame(&scene->camera, scene->image.width, scene->image.height);
     bool orthographic = frame.projection == PROJECTION_ORTHOGRAPHIC;
+    if (!orthographic && (export->habits & (POV_HABIT_LEFT_HANDED | POV_HABIT_ANGLE)) != 0) {
+        writeUsualCamera(export, &frame);
+        return;
+    }
+    if (has(export, POV_HABIT_LEFT_HANDED))
+        frame.right = multVector(frame.right, -1);
     double planeScale = orthographic ? export->scale : 1;
     textAppend(pov, orthographic ? "camera {\n  orthographic\n  location "
                                  : "camera {\n  perspective\n  location ");
@@ -158,11 +216,8 @@ static const double DIRECTIONAL_DISTANCE = 0x1p26;
 
 static void writeSpot(const Export *export, const Light *light)
 {
-    /* The farther the point, the less its rounding turns the axis. */
-    double distance = fmax(1, norm(light->position));
-    Vector3D target = addVectors(light->position, multVector(light->direction, distance));
     textAppend(export->pov, "\n  spotlight point_at ");
-    textAppendPovVector(export->pov, target, export->scale);
+    textAppendPovVector(export->pov, pointAlong(light->position, light->direction), export->scale);
     textAppend(export->pov, " radius ");
     textAppendPovNumber(export->pov, light->innerAngle);
     textAppend(export->pov, " falloff ");
@@ -171,14 +226,22 @@ static void writeSpot(const Export *export, const Light *light)
     textAppendPovNumber(export->pov, light->tightness);
 }
 
-/* One of the point lights that a light stands for. */
+/* Whether the light is written as one area_light. */
+static bool isAreaLight(const Export *export, const Light *light)
+{
+    return has(export, POV_HABIT_AREA_LIGHT) && lightSampleCount(light) > 1;
+}
+
+/* One of the point lights that a light stands for; or all of them, as an area_light. */
 static void writeLightSample(const Export *export, const Light *light, int sample)
 {
     Text *pov = export->pov;
-    bool directional = light->kind == LIGHT_DIRECTIONAL;
+    bool directional = light->kind == LIGHT_DIRECTIONAL, isArea = isAreaLight(export, light);
     textAppend(pov, "light_source {\n  ");
     if (directional)
         textAppendPovVector(pov, light->direction, -DIRECTIONAL_DISTANCE);
+    else if (isArea)
+        textAppendPovVector(pov, light->position, export->scale);
     else
         textAppendPovVector(pov, lightSamplePosition(light, sample), export->scale);
     textAppend(pov, "\n  ");
@@ -189,12 +252,25 @@ static void writeLightSample(const Export *export, const Light *light, int sampl
         return;
     }
     Color3f color = light->color;
-    if (light->kind == LIGHT_AREA)
+    if (light->kind == LIGHT_AREA && !isArea)
         color = scaleColor(color, 1.0 / lightSampleCount(light));
     bool falls = !directional && light->falloff == FALLOFF_INVERSE_SQUARE;
-    textAppendPovColor(pov, color, falls ? export->scale * export->scale : 1);
-    if (falls)
+    bool fallsByHabit = falls && has(export, POV_HABIT_FALLOFF);
+    textAppendPovColor(pov, color, falls && !fallsByHabit ? export->scale * export->scale : 1);
+    if (fallsByHabit) {
+        textAppend(pov, "\n  fade_distance ");
+        textAppendPovNumber(pov, export->scale);
+        textAppend(pov, " fade_power 2");
+    } else if (falls) {
         textAppend(pov, "*K\n  fade_distance D fade_power 2");
+    }
+    if (isArea) {
+        textAppend(pov, "\n  area_light ");
+        textAppendPovVector(pov, light->edgeU, export->scale);
+        textAppend(pov, ", ");
+        textAppendPovVector(pov, light->edgeV, export->scale);
+        textAppendFormat(pov, ", %d, %d", light->countU, light->countV);
+    }
     if (light->kind == LIGHT_SPOT)
         writeSpot(export, light);
     textAppend(pov, directional ? "\n  parallel point_at 0\n}\n\n" : "\n}\n\n");
@@ -205,20 +281,22 @@ static void writeLightSample(const Export *export, const Light *light, int sampl
 static Status writeLights(const Export *export)
 {
     const Scene *scene = export->scene;
-    if (export->finish == FINISH_REFLECTION && scene->lightCount > 0)
+    bool isFaded = export->finish == FINISH_REFLECTION && !has(export, POV_HABIT_FALLOFF);
+    if (isFaded && scene->lightCount > 0)
         textAppend(export->pov, "#declare D = 1/1048576; // with fade_distance D and the color times K,\n"
                                 "#declare K = 1/(2*D*D); // the light falls off by 1/d^2\n\n");
     for (size_t i = 0; i < scene->lightCount && export->finish != FINISH_UNLIT; i++) {
         const Light *light = &scene->lights[i];
         double brightest = fmax((double)light->color.r, fmax((double)light->color.g, (double)light->color.b));
-        if (light->falloff == FALLOFF_INVERSE_SQUARE && export->finish == FINISH_REFLECTION &&
+        if (light->falloff == FALLOFF_INVERSE_SQUARE && isFaded &&
             brightest * export->scale * export->scale * 0x1p39 > (double)FLT_MAX)
             return statusError(
                 STATUS_INEXPRESSIBLE,
                 "light %zu is too bright for POV-Ray, which keeps colours in single precision; "
                 "a colour below 1e26 can be exported",
                 i + 1);
-        for (int sample = 0; sample < lightSampleCount(light); sample++)
+        int samples = isAreaLight(export, light) ? 1 : lightSampleCount(light);
+        for (int sample = 0; sample < samples; sample++)
             writeLightSample(export, light, sample);
     }
     return statusOk();
@@ -270,7 +348,7 @@ static void writeObject(const Export *export, const Object *object, bool isPart)
         }
         return;
     }
-    textAppendPovTexture(pov, export->scene, &object->material, export->finish, export->scale,
+    textAppendPovTexture(pov, export->scene, &object->material, export->finish, export->habits, export->scale,
                          ownExtent(export, object));
     if (object->transform != NULL) {
         textAppend(pov, "\n  ");
@@ -422,11 +500,17 @@ static Status chooseFinish(const Scene *scene, PovFinish *finish)
 
 Status exportPov(const Scene *scene, const char *name, Text *pov)
 {
+    return exportPovWithHabits(scene, name, 0, pov);
+}
+
+Status exportPovWithHabits(const Scene *scene, const char *name, unsigned habits, Text *pov)
+{
     Export export = {.scene = scene, .pov = pov, .scale = povScale(scene)};
+    export.habits = habits & applicablePovHabits(scene);
     Status status = chooseFinish(scene, &export.finish);
     if (!statusIsOk(&status))
         return status;
-    writeHeader(scene, name, export.scale, pov);
+    writeHeader(&export, name);
     writeBackground(&export);
     writeCamera(&export);
     status = writeLights(&export);

@@ -12,4 +12,8 @@
  * STATUS_INEXPRESSIBLE, with the line of the scene where there is one, for what POV-Ray cannot say. */
 Status exportPov(const Scene *scene, const char *name, Text *pov);
 
+/* The same, but written with these PovHabits, which change the picture; those that do not apply to the scene
+ * are as if they were not there. Without any it is exportPov. */
+Status exportPovWithHabits(const Scene *scene, const char *name, unsigned habits, Text *pov);
+
 #endif

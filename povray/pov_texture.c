@@ -17,6 +17,8 @@
  */
 #include "povray/pov_texture.h"
 
+#include "povray/pov_habits.h"
+
 #include <math.h>
 
 void textAppendPovColor(Text *pov, Color3f color, double factor)
@@ -173,13 +175,92 @@ static Color3f divideColors(Color3f a, Color3f b)
     return createColor(a.r / b.r, a.g / b.g, a.b / b.b);
 }
 
-static Layers reflectionLayers(const Scene *scene, const Material *material, double scale, double extent)
+/* What a material is by these habits. */
+typedef struct Terms {
+    Color3f own, ks, kt;     /* its own light, the highlight's colour, what goes through */
+    bool isPhong;            /* the highlight is Phong's, not Blinn's */
+    double ambient, diffuse; /* shares of the diffuse colour */
+} Terms;
+
+static Terms termsByHabits(const Scene *scene, const Material *material, unsigned habits)
+{
+    ShadingModel model = materialModel(scene, material);
+    Terms terms = {.own = material->emission,
+                   .kt = material->transmission,
+                   .isPhong = (model == MODEL_PHONG) != ((habits & POV_HABIT_HIGHLIGHT) != 0),
+                   .ambient = (habits & POV_HABIT_AMBIENT) != 0 ? 0.1 : 0,
+                   .diffuse = (habits & POV_HABIT_DIFFUSE) != 0 ? 0.6 : 1};
+    if ((habits & POV_HABIT_AMBIENT) == 0)
+        terms.own = addColors(multColors(material->ambient, scene->render.ambient), material->emission);
+    if (model >= MODEL_PHONG)
+        terms.ks = material->specular;
+    if ((habits & POV_HABIT_HIGHLIGHT_COLOR) != 0) {
+        float mean = (terms.ks.r + terms.ks.g + terms.ks.b) / 3;
+        terms.ks = createColor(mean, mean, mean);
+    }
+    return terms;
+}
+
+/* The shares of the diffuse colour that are not the default of the file, each times factor. */
+static void appendShares(Text *layer, const Terms *terms, double factor)
+{
+    if (terms->ambient != 0) {
+        textAppend(layer, "ambient ");
+        textAppendPovNumber(layer, terms->ambient * factor);
+        textAppend(layer, " ");
+    }
+    if (terms->diffuse * factor != 1) {
+        textAppend(layer, "diffuse ");
+        textAppendPovNumber(layer, terms->diffuse * factor);
+        textAppend(layer, " ");
+    }
+}
+
+static void appendHighlight(Text *layer, const Terms *terms, double strength, double shininess)
+{
+    textAppend(layer, terms->isPhong ? "phong " : "specular ");
+    textAppendPovNumber(layer, strength);
+    textAppend(layer, terms->isPhong ? " phong_size " : " roughness 1/");
+    textAppendPovNumber(layer, shininess);
+    textAppend(layer, " ");
+}
+
+static void appendReflection(Text *layer, const Material *material)
+{
+    if (colorIsBlack(material->reflection))
+        return;
+    textAppend(layer, "reflection { ");
+    textAppendPovColor(layer, material->reflection, 1);
+    textAppend(layer, " } ");
+}
+
+/* Whether one finish says it all, as it is written by hand: with the default finish's numbers, and a
+ * highlight of one number. */
+static bool fitsOneFinish(const Terms *terms, unsigned habits)
+{
+    return (habits & POV_HABIT_AMBIENT) != 0 && (habits & POV_HABIT_DIFFUSE) != 0 &&
+           colorIsBlack(terms->own) && colorIsBlack(terms->kt) && terms->ks.r == terms->ks.g &&
+           terms->ks.g == terms->ks.b;
+}
+
+static void appendOneFinish(Text *pov, const Material *material, const Terms *terms, double scale,
+                            double extent)
+{
+    textAppend(pov, "texture { ");
+    appendDiffusePigment(pov, material, 1, false, scale, extent);
+    textAppend(pov, " finish { ");
+    appendShares(pov, terms, 1);
+    if (!colorIsBlack(terms->ks))
+        appendHighlight(pov, terms, (double)terms->ks.r, (double)material->shininess);
+    appendReflection(pov, material);
+    textAppend(pov, "} }");
+}
+
+static Layers reflectionLayers(const Material *material, const Terms *terms, double scale, double extent)
 {
     Layers layers = {.count = 0};
-    ShadingModel model = materialModel(scene, material);
-    Color3f own = addColors(multColors(material->ambient, scene->render.ambient), material->emission);
-    Color3f ks = model >= MODEL_PHONG ? material->specular : createColor(0, 0, 0);
-    Color3f kt = material->transmission;
+    Color3f own = terms->own, ks = terms->ks;
+    Color3f kt = terms->kt;
     bool highlight = !colorIsBlack(ks), transparent = !colorIsBlack(kt);
     bool hasDiffuse = material->pattern != NULL || !colorIsBlack(material->diffuse);
     double f = 1;
@@ -198,11 +279,7 @@ static Layers reflectionLayers(const Scene *scene, const Material *material, dou
         double inPigment = isImage(material) ? 1 : factor;
         appendDiffusePigment(layer, material, inPigment, seeThrough, scale, extent);
         textAppend(layer, " finish { ");
-        if (isImage(material) && factor != 1) {
-            textAppend(layer, "diffuse ");
-            textAppendPovNumber(layer, factor);
-            textAppend(layer, " ");
-        }
+        appendShares(layer, terms, isImage(material) ? factor : 1);
         f = seeThrough ? f / 2 : f;
     }
     if (highlight) {
@@ -217,10 +294,7 @@ static Layers reflectionLayers(const Scene *scene, const Material *material, dou
         textAppend(layer, "pigment { ");
         textAppendPovColor(layer, transparent ? divideColors(kt, ks) : createColor(0, 0, 0), 1);
         textAppend(layer, transparent ? " filter 1 } finish { diffuse 0 " : " } finish { diffuse 0 ");
-        bool phong = model == MODEL_PHONG;
-        textAppend(layer, phong ? "phong 1 phong_size " : "specular 1 roughness 1/");
-        textAppendPovNumber(layer, (double)material->shininess);
-        textAppend(layer, " ");
+        appendHighlight(layer, terms, 1, (double)material->shininess);
     } else if (transparent) {
         Text *layer = addLayer(&layers);
         textAppend(layer, "pigment { ");
@@ -228,18 +302,14 @@ static Layers reflectionLayers(const Scene *scene, const Material *material, dou
         textAppend(layer, " filter 1 } finish { diffuse 0 ");
     }
 
-    if (!colorIsBlack(material->reflection)) {
-        textAppend(&layers.texts[0], "reflection { ");
-        textAppendPovColor(&layers.texts[0], material->reflection, 1);
-        textAppend(&layers.texts[0], " } ");
-    }
+    appendReflection(&layers.texts[0], material);
     for (int i = 0; i < layers.count; i++)
         textAppend(&layers.texts[i], "}");
     return layers;
 }
 
 void textAppendPovTexture(Text *pov, const Scene *scene, const Material *material, PovFinish finish,
-                          double scale, double extent)
+                          unsigned habits, double scale, double extent)
 {
     if (finish != FINISH_REFLECTION) {
         appendDiffusePigment(pov, material, 1, false, scale, extent);
@@ -247,7 +317,12 @@ void textAppendPovTexture(Text *pov, const Scene *scene, const Material *materia
                    finish == FINISH_UNLIT ? " finish { diffuse 0 emission 1 }" : " finish { brilliance 0 }");
         return;
     }
-    Layers layers = reflectionLayers(scene, material, scale, extent);
+    Terms terms = termsByHabits(scene, material, habits);
+    if (fitsOneFinish(&terms, habits)) {
+        appendOneFinish(pov, material, &terms, scale, extent);
+        return;
+    }
+    Layers layers = reflectionLayers(material, &terms, scale, extent);
     for (int i = layers.count - 1; i >= 0; i--) {
         textAppend(pov, "texture { ");
         textAppend(pov, textString(&layers.texts[i]));

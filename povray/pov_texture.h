@@ -15,10 +15,10 @@ typedef enum PovFinish {
 /* Append "rgb <r, g, b>", each component times factor. */
 void textAppendPovColor(Text *pov, Color3f color, double factor);
 
-/* Append the textures of a material, the top layer last. scale: of all lengths; extent: how far from the
- * origin of its own space the object's points can be. */
+/* Append the textures of a material, the top layer last, by these PovHabits (pov_habits.h). scale: of all
+ * lengths; extent: how far from the origin of its own space the object's points can be. */
 void textAppendPovTexture(Text *pov, const Scene *scene, const Material *material, PovFinish finish,
-                          double scale, double extent);
+                          unsigned habits, double scale, double extent);
 
 /* Append "matrix <...>", the translation times scale. */
 void textAppendPovMatrix(Text *pov, const Matrix *matrix, double scale);

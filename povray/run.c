@@ -14,6 +14,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -174,21 +175,36 @@ static Status runIn(const char *folder, const PovraySettings *settings, bool ant
     if (program == NULL)
         return findPovray();
 
-    char size[2][24], format[8], threads[16], samples[16];
+    char size[2][24], format[8], threads[16], samples[16], region[4][24];
     snprintf(size[0], sizeof size[0], "+W%d", settings->width);
     snprintf(size[1], sizeof size[1], "+H%d", settings->height);
     snprintf(format, sizeof format, "+FN%d", settings->bitDepth == 16 ? 16 : 8);
     snprintf(threads, sizeof threads, "+WT%d", settings->threads > 0 ? settings->threads : 1);
     snprintf(samples, sizeof samples, "+R%d", settings->samples);
     char *gamma = settings->encoding == ENCODING_LINEAR ? "File_Gamma=1.0" : "File_Gamma=srgb";
-    char *arguments[] = {"povray", "+Iscene.pov", "+Opicture.png", size[0], size[1], format, gamma,
-                         "-D",     "-P",          threads,         "-A",    NULL,    NULL,   NULL,
+    char *arguments[] = {"povray", "+Iscene.pov", "+Opicture.png",
+                         size[0],  size[1],       format,
+                         gamma,    "-D",          "-P",
+                         threads,  "-A",          NULL,
+                         NULL,     NULL,          NULL,
+                         NULL,     NULL,          NULL,
                          NULL};
+    int count = 10;
     if (antialias) {
-        arguments[10] = "+A0.0";
-        arguments[11] = "+AM1";
-        arguments[12] = samples;
-        arguments[13] = "-J";
+        arguments[count++] = "+A0.0";
+        arguments[count++] = "+AM1";
+        arguments[count++] = samples;
+        arguments[count++] = "-J";
+    } else {
+        count++;
+    }
+    if (settings->onePixel) {
+        /* Columns and rows count from 1. */
+        const char *const bounds[4] = {"+SC", "+EC", "+SR", "+ER"};
+        for (int i = 0; i < 4; i++) {
+            snprintf(region[i], sizeof region[i], "%s%d", bounds[i], 1 + (i < 2 ? settings->x : settings->y));
+            arguments[count++] = region[i];
+        }
     }
     Text path = {0}, home = {0}, ini = {0}, log = {0};
     const char *searched = getenv("PATH");
@@ -257,6 +273,19 @@ static Status drawIn(const char *folder, const PovraySettings *settings, const c
     return status;
 }
 
+/* The same where POV-Ray took the mean of values that it then raised to the power gamma. */
+static void takeOutMiddleBeforeGamma(const Image *mean, Image *middle, int n, double gamma)
+{
+    double rays = (double)n * n, largest = imageMaxSample(middle);
+    size_t count = 3 * (size_t)middle->width * (size_t)middle->height;
+    for (size_t i = 0; i < count; i++) {
+        double all = pow(mean->samples[i] / largest, 1 / gamma);
+        double one = pow(middle->samples[i] / largest, 1 / gamma);
+        double others = fmin(fmax(((rays + 1) * all - one) / rays, 0), 1);
+        middle->samples[i] = (uint16_t)(pow(others, gamma) * largest + 0.5);
+    }
+}
+
 /* Of the mean of n^2 + 1 rays and the one in the middle, the mean of the n^2 others:
  * ((n^2 + 1) mean - middle) / n^2, into middle. */
 static void takeOutMiddle(const Image *mean, Image *middle, int n)
@@ -297,7 +326,10 @@ Status runPovray(const char *pov, const PovraySettings *settings, Image *image)
         Image mean;
         status = drawIn(folder, settings, picture.data, true, &mean);
         if (statusIsOk(&status)) {
-            takeOutMiddle(&mean, image, settings->samples);
+            if (settings->gamma == 0 || settings->gamma == 1)
+                takeOutMiddle(&mean, image, settings->samples);
+            else
+                takeOutMiddleBeforeGamma(&mean, image, settings->samples, settings->gamma);
             freeImage(&mean);
         } else {
             freeImage(image);

@@ -5,13 +5,18 @@
 #include "base/status.h"
 #include "image/image.h"
 
+#include <stdbool.h>
+
 typedef struct PovraySettings {
     int width, height;
     int bitDepth; /* 8 or 16 */
     Encoding encoding;
     int samples;           /* n for the mean of n x n rays a pixel; above 1 only with linear encoding */
+    double gamma;          /* the .pov's assumed_gamma, which counts with samples above 1; 0 is 1 */
     int threads;           /* POV-Ray's work threads, at least 1 */
     double timeoutSeconds; /* then it is killed: STATUS_POVRAY */
+    bool onePixel;         /* draw only the pixel (x, y), from 0 at the top left; all others are black */
+    int x, y;
 } PovraySettings;
 
 /* Whether there is a program povray on the PATH; STATUS_POVRAY with the command that installs it. */

@@ -183,9 +183,8 @@ static Color3f shadeSimple(const SurfaceFinder *finder, const SurfacePoint *poin
     return createColor(0, 0, 0);
 }
 
-/* The light of all lamps that the surface returns towards the ray's origin. */
-static Color3f shadeLights(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
-                           Vector3D v, RayCounts *counts)
+Color3f lightReturned(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
+                      Vector3D v, RayCounts *counts)
 {
     const Scene *scene = finder->scene;
     ShadingModel model = materialModel(scene, material);
@@ -289,7 +288,8 @@ Color3f shade(const SurfaceFinder *finder, const SurfacePoint *point, const Ray 
     Material material = materialAt(point->hit.object, point->position);
     if (materialModel(finder->scene, &material) == MODEL_SIMPLE)
         return shadeSimple(finder, point, &material, counts);
-    Color3f color = shadeLights(finder, point, &material, multVector(ray->direction, -1), counts);
+    LightShader *shadeWith = finder->lightShader != NULL ? finder->lightShader : lightReturned;
+    Color3f color = shadeWith(finder, point, &material, multVector(ray->direction, -1), counts);
     return addSecondaryRays(finder, point, &material, ray, media, depth, color, counts);
 }
 
@@ -367,7 +367,7 @@ enum {
 };
 
 typedef struct Rendering {
-    SurfaceFinder finder;
+    const SurfaceFinder *finder;
     const uint32_t *transparent; /* numbers of the transparent objects */
     size_t transparentCount;
     Framebuffer *framebuffer;
@@ -382,7 +382,7 @@ typedef struct Rendering {
 /* The mean of samples x samples rays, evenly spread; of one, through the middle. */
 static Color3f renderPixel(const Rendering *rendering, int x, int y, RayCounts *counts)
 {
-    const Scene *scene = rendering->finder.scene;
+    const Scene *scene = rendering->finder->scene;
     const Framebuffer *framebuffer = rendering->framebuffer;
     int n = scene->render.samples;
     double sum[3] = {0, 0, 0};
@@ -394,7 +394,7 @@ static Color3f renderPixel(const Rendering *rendering, int x, int y, RayCounts *
             if (rendering->frame.projection != PROJECTION_PERSPECTIVE)
                 media = mediaAmong(scene, rendering->transparent, rendering->transparentCount, ray.origin);
             counts->primary++;
-            Color3f color = traceRay(&rendering->finder, &ray, &media, 1, counts);
+            Color3f color = traceRay(rendering->finder, &ray, &media, 1, counts);
             if (n == 1)
                 return color;
             sum[0] += (double)color.r;
@@ -430,9 +430,10 @@ static void renderTile(void *context, size_t number)
                                      (double)done / (double)rendering->tileCount);
 }
 
-Status renderReference(const Scene *scene, Framebuffer *framebuffer, const RenderOptions *options,
-                       RayCounts *counts)
+Status renderWithFinder(const SurfaceFinder *finder, Framebuffer *framebuffer, const RenderOptions *options,
+                        RayCounts *counts)
 {
+    const Scene *scene = finder->scene;
     size_t columns = ((size_t)framebuffer->width + TILE_SIZE - 1) / TILE_SIZE;
     size_t rows = ((size_t)framebuffer->height + TILE_SIZE - 1) / TILE_SIZE;
     size_t transparentCount;
@@ -440,7 +441,7 @@ Status renderReference(const Scene *scene, Framebuffer *framebuffer, const Rende
     uint32_t *transparent = findTransparentObjects(scene, &transparentCount, &failed);
     if (failed)
         return statusOutOfMemory();
-    Rendering rendering = {.finder = {scene, findNearest, findLight},
+    Rendering rendering = {.finder = finder,
                            .transparent = transparent,
                            .transparentCount = transparentCount,
                            .framebuffer = framebuffer,
@@ -455,6 +456,13 @@ Status renderReference(const Scene *scene, Framebuffer *framebuffer, const Rende
         *counts = (RayCounts){
             .primary = rendering.primary, .shadow = rendering.shadow, .secondary = rendering.secondary};
     return status;
+}
+
+Status renderReference(const Scene *scene, Framebuffer *framebuffer, const RenderOptions *options,
+                       RayCounts *counts)
+{
+    SurfaceFinder finder = {.scene = scene, .nearest = findNearest, .lightAlong = findLight};
+    return renderWithFinder(&finder, framebuffer, options, counts);
 }
 
 static void renderWithModel(Scene *scene, ShadingModel model, Framebuffer *framebuffer)

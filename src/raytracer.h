@@ -262,6 +262,11 @@ Color3f lightThroughObjects(const Scene *scene, const uint32_t *objects, size_t 
 
 /* How an engine finds surfaces; an engine's own struct begins with it. */
 typedef struct SurfaceFinder SurfaceFinder;
+
+/* What a surface returns of all lamps towards v, of unit length, and its own light. */
+typedef Color3f LightShader(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
+                            Vector3D v, RayCounts *counts);
+
 struct SurfaceFinder {
     const Scene *scene;
     /* As throwRayThroughScene: the nearest object that the ray meets, or NULL; hit says where, and on which
@@ -269,7 +274,13 @@ struct SurfaceFinder {
     const Object *(*nearest)(const SurfaceFinder *finder, const Ray *ray, Hit *hit);
     /* As lightThroughObjects behind all objects. */
     Color3f (*lightAlong)(const SurfaceFinder *finder, const ShadowRay *shadow, Color3f color);
+    /* Takes the place of lightReturned, to see what another formula would give; NULL: the course's models. */
+    LightShader *lightShader;
 };
+
+/* The course's models, but for the simple one: ambient and emission, then for each lamp that reaches the
+ * point the diffuse term and the highlight. */
+LightShader lightReturned;
 
 /* The colour that comes along the ray, number depth in its chain (the camera's is 1), within these media. */
 Color3f traceRay(const SurfaceFinder *finder, const Ray *ray, const Media *media, int depth,
@@ -293,8 +304,12 @@ typedef struct RenderOptions {
     void *progressContext;
 } RenderOptions;
 
-/* Draw the scene as it says, into a framebuffer of any size. The same picture for any number of
+/* Draw the finder's scene as it says, into a framebuffer of any size. The same picture for any number of
  * threads. STATUS_INTERRUPTED when cancelled; counts may be NULL. */
+Status renderWithFinder(const SurfaceFinder *finder, Framebuffer *framebuffer, const RenderOptions *options,
+                        RayCounts *counts);
+
+/* The same, finding surfaces by looking at all objects. */
 Status renderReference(const Scene *scene, Framebuffer *framebuffer, const RenderOptions *options,
                        RayCounts *counts);
 

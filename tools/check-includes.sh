@@ -27,7 +27,8 @@ scene:      raytracer image
 engine:     raytracer
 povray:     raytracer image
 compare:    image
-cli:        scene engine povray compare
+explain:    scene engine povray compare
+cli:        explain
 main:       cli
 '
 

@@ -277,7 +277,7 @@ suite_shell() {
 }
 
 suite_browser() {
-    local file title="The report in a browser"
+    local file title="The report and the notes in a browser"
     hasFiles tests/browser/*test*.*js || return 0
     if ! command -v node >/dev/null; then
         skipSuite "$title" "node is not installed (make setup installs it)"

@@ -20,14 +20,18 @@ typedef enum CommandBit {
     COMMAND_DIFF = 1 << 3,
     COMMAND_CHECK = 1 << 4,
     COMMAND_SCHEMA = 1 << 5,
-    ALL_COMMANDS = (1 << 6) - 1
+    COMMAND_WHY = 1 << 6,
+    COMMAND_EXPLAIN = 1 << 7,
+    ALL_COMMANDS = (1 << 8) - 1
 } CommandBit;
 
 /* What the operands of a command are, for the completion of the shell. */
 typedef enum OperandKind {
     OPERANDS_NONE,
     OPERANDS_SCENES,
-    OPERANDS_PICTURES
+    OPERANDS_PICTURES,
+    OPERANDS_SCENE_OR_PICTURES,
+    OPERANDS_PIXEL /* a scene, and two whole numbers */
 } OperandKind;
 
 typedef struct Arguments Arguments;
@@ -75,9 +79,12 @@ struct Arguments {
     const char **operands;  /* owned */
     size_t operandCount;
     bool help, version, json, quiet;
+    bool perTerm;         /* --per-term */
+    unsigned aovs;        /* of --aov: a set of Aovs, one bit each */
     int color;            /* a ColorChoice */
     const char *output;   /* of -o; NULL: not given */
     const char *folder;   /* of --out; NULL: not given */
+    const char *svg;      /* of --svg; NULL: not given */
     int width, height;    /* 0: not given */
     int samples, threads; /* 0: not given */
     int model;            /* a ShadingModel less MODEL_SIMPLE, or NOT_GIVEN */
@@ -91,7 +98,9 @@ int runRender(const Arguments *arguments);
 int runPov(const Arguments *arguments);
 int runCompare(const Arguments *arguments);
 int runDiff(const Arguments *arguments);
+int runExplain(const Arguments *arguments);
 int runCheck(const Arguments *arguments);
 int runSchema(const Arguments *arguments);
+int runWhy(const Arguments *arguments);
 
 #endif

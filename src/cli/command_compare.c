@@ -9,14 +9,15 @@
 #include "base/files.h"
 #include "base/threads.h"
 #include "cli/command.h"
+#include "cli/compare_job.h"
 #include "cli/drawing.h"
 #include "cli/scene_input.h"
+#include "cli/shell_words.h"
 #include "cli/terminal.h"
-#include "compare/difference.h"
-#include "compare/metrics.h"
 #include "compare/report.h"
-#include "image/image.h"
-#include "povray/export.h"
+#include "compare/words.h"
+#include "explain/scene_variant.h"
+#include "explain/terms.h"
 #include "povray/run.h"
 
 #include <pthread.h>
@@ -25,20 +26,29 @@
 #include <strings.h>
 
 enum {
-    MOST_AT_ONCE = 8,    /* scenes under way */
-    LONGEST_NAME = 80,   /* bytes of a scene's name in those of its files */
-    POVRAY_TIMEOUT = 600 /* seconds for one scene */
+    MOST_AT_ONCE = 8, /* pictures under way */
+    LONGEST_NAME = 80 /* bytes of a scene's name in those of its files */
 };
 
 static const char DEFAULT_FOLDER[] = "eclairage-report";
 
+/* One term of a scene. */
+typedef struct TermJob {
+    Term term;
+    PictureFiles files;
+    Text messages;
+    Status status;
+} TermJob;
+
 /* One scene of the run. */
 typedef struct Job {
     const char *path;
-    Text name;                          /* what its files are called; no two jobs have the same */
-    Text ours, povray, difference, pov; /* the names of its files, in the folder */
-    Text command;                       /* that repeats this comparison */
+    Text name; /* what its files are called; no two jobs have the same */
+    PictureFiles files;
+    Text command; /* that repeats this comparison */
     SceneResult result;
+    TermJob terms[TERM_COUNT]; /* those that it has, with --per-term */
+    TermResult termResults[TERM_COUNT];
     Text messages; /* what is to be said about it */
     bool isDone;
 } Job;
@@ -48,16 +58,12 @@ typedef struct Run {
     const char *folder;
     Job *jobs;
     size_t count;
-    int threads, povrayThreads;
+    CompareSettings settings;
+    int termsAtOnce;          /* of one scene */
     pthread_mutex_t turn;     /* held by the scene that draws or measures */
     pthread_mutex_t printing; /* guards isDone, the messages that are printed and the counts below */
     size_t printed, done;
 } Run;
-
-/* Both pictures of a scene and their difference. */
-typedef struct Pictures {
-    Image ours, povray, difference;
-} Pictures;
 
 /* ---- Names ---- */
 
@@ -81,12 +87,29 @@ static void appendSafeName(Text *text, const char *path)
         textAppend(text, "scene");
 }
 
-/* Whether an earlier job has the name; capitals do not count, for file systems that ignore them. */
+/* Whether the longer name is what a term of the other is called. */
+static bool isTermOf(const char *longer, const char *name)
+{
+    size_t length = strlen(name);
+    if (strncasecmp(longer, name, length) != 0 || longer[length] != '-')
+        return false;
+    for (Term term = 0; term < TERM_COUNT; term++)
+        if (strcasecmp(longer + length + 1, termName(term)) == 0)
+            return true;
+    return false;
+}
+
+/* Whether files of an earlier job would be called the same; capitals do not count, for file systems that
+ * ignore them. */
 static bool isNameTaken(const Run *run, size_t number, const char *name)
 {
-    for (size_t i = 0; i < number; i++)
-        if (strcasecmp(textString(&run->jobs[i].name), name) == 0)
+    for (size_t i = 0; i < number; i++) {
+        const char *other = textString(&run->jobs[i].name);
+        if (strcasecmp(other, name) == 0)
             return true;
+        if (run->arguments->perTerm && (isTermOf(other, name) || isTermOf(name, other)))
+            return true;
+    }
     return false;
 }
 
@@ -103,28 +126,7 @@ static void nameJob(Run *run, size_t number)
             break;
     }
     textFree(&stem);
-    textAppendFormat(&job->ours, "%s-ours.png", textString(&job->name));
-    textAppendFormat(&job->povray, "%s-povray.png", textString(&job->name));
-    textAppendFormat(&job->difference, "%s-difference.png", textString(&job->name));
-    textAppendFormat(&job->pov, "%s.pov", textString(&job->name));
-}
-
-/* Append a word of a command as a shell reads it. */
-static void appendShellWord(Text *text, const char *word)
-{
-    static const char HARMLESS[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-    if (*word != '\0' && strspn(word, HARMLESS) == strlen(word)) {
-        textAppend(text, word);
-        return;
-    }
-    textAppend(text, "'");
-    for (const char *c = word; *c != '\0'; c++) {
-        if (*c == '\'')
-            textAppend(text, "'\\''");
-        else
-            textAppendBytes(text, c, 1);
-    }
-    textAppend(text, "'");
+    namePictureFiles(textString(&job->name), &job->files);
 }
 
 /* How many words the option --out takes at this place of the command line: 0 where it does not stand. */
@@ -164,98 +166,73 @@ static void appendCommandLine(Text *text, const Arguments *arguments, const char
     }
 }
 
-/* ---- One scene ---- */
+/* ---- Terms ---- */
 
-/* The path of a file in the report's folder, freed by the caller. */
-static Text pathInFolder(const Run *run, const char *name)
-{
-    Text path = {0};
-    bool endsInSlash = run->folder[strlen(run->folder) - 1] == '/';
-    textAppendFormat(&path, "%s%s%s", run->folder, endsInSlash ? "" : "/", name);
-    return path;
-}
+/* The terms of one scene, each a task. */
+typedef struct TermRun {
+    Run *run;
+    Job *job;
+    const Scene *scene;
+} TermRun;
 
-/* STATUS_USAGE when the .pov would be written over its scene. */
-static Status protectScene(const Run *run, const Job *job)
+static void runTerm(void *context, size_t number)
 {
-    Text path = pathInFolder(run, textString(&job->pov));
-    bool isScene = isSameFile(textString(&path), job->path);
-    textFree(&path);
-    return isScene ? statusError(STATUS_USAGE, "the POV-Ray scene would overwrite the scene itself: choose "
-                                               "another folder with --out, or end its name in .yaml")
-                   : statusOk();
-}
-
-static Status writeTextFile(const Run *run, const char *name, const Text *text)
-{
-    Text path = pathInFolder(run, name);
-    Status status = path.failed || text->failed ? statusOutOfMemory()
-                                                : writeWholeFile(path.data, textString(text), text->length);
-    textFree(&path);
-    return status;
-}
-
-static Status writePicture(const Run *run, const Text *name, const Image *image)
-{
-    Text path = pathInFolder(run, textString(name));
-    Status status = path.failed ? statusOutOfMemory() : writePng(path.data, image, run->threads);
-    textFree(&path);
-    return status;
-}
-
-static Status drawOurs(Run *run, Job *job, const Scene *scene, Image *ours)
-{
-    Framebuffer *framebuffer = createFramebuffer(scene->image.width, scene->image.height);
-    if (framebuffer == NULL)
-        return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
-                           scene->image.height);
-    pthread_mutex_lock(&run->turn);
-    RenderOptions options = {.threads = run->threads};
-    DrawingSeconds seconds;
-    Status status = drawScene(scene, chosenEngine(run->arguments), framebuffer, &options, NULL, &seconds);
-    job->result.renderSeconds = seconds.compile + seconds.trace;
-    pthread_mutex_unlock(&run->turn);
+    const TermRun *terms = context;
+    TermJob *termJob = &terms->job->terms[number];
+    Scene variant;
+    Status status = createTermScene(terms->scene, termJob->term, &variant);
     if (statusIsOk(&status)) {
-        warnOfNonFinitePixels(framebuffer, job->path, &job->messages);
-        status = imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding, run->threads,
-                                      ours);
+        PictureResult result = {0};
+        status = comparePicture(&terms->run->settings, &variant, terms->job->path, &termJob->files, &result,
+                                &termJob->messages);
+        freeSceneVariant(&variant);
+        TermResult *told = &terms->job->termResults[number];
+        told->metrics = result.metrics;
+        told->verdict = result.verdict;
     }
-    freeFramebuffer(framebuffer);
+    termJob->status = status;
+}
+
+/* Compare the terms that the scene has, several at once. */
+static Status compareTerms(Run *run, Job *job, const Scene *scene)
+{
+    size_t count = 0;
+    for (Term term = 0; term < TERM_COUNT; term++) {
+        if (!sceneHasTerm(scene, term))
+            continue;
+        TermJob *termJob = &job->terms[count];
+        termJob->term = term;
+        Text stem = {0};
+        textAppendFormat(&stem, "%s-%s", textString(&job->name), termName(term));
+        bool isNamed = namePictureFiles(textString(&stem), &termJob->files) && !stem.failed;
+        textFree(&stem);
+        if (!isNamed)
+            return statusOutOfMemory();
+        job->termResults[count] = (TermResult){.term = termName(term),
+                                               .oursFile = termJob->files.ours.data,
+                                               .povrayFile = termJob->files.povray.data,
+                                               .differenceFile = termJob->files.difference.data,
+                                               .povFile = termJob->files.pov.data};
+        count++;
+    }
+    TermRun terms = {.run = run, .job = job, .scene = scene};
+    Status status = runTasks(count, run->termsAtOnce, runTerm, &terms);
+    for (size_t i = 0; i < count; i++) {
+        TermJob *termJob = &job->terms[i];
+        textAppend(&job->messages, textString(&termJob->messages));
+        textFree(&termJob->messages);
+        if (!statusIsOk(&status) || statusIsOk(&termJob->status))
+            continue;
+        status = statusErrorAt(termJob->status.code, termJob->status.line, termJob->status.column,
+                               "the %s term could not be compared: %s", termName(termJob->term),
+                               termJob->status.message);
+    }
+    job->result.terms = job->termResults;
+    job->result.termCount = count;
     return status;
 }
 
-static Status drawWithPovray(const Run *run, Job *job, const Scene *scene, const Text *pov, Image *povray)
-{
-    PovraySettings settings = {.width = scene->image.width,
-                               .height = scene->image.height,
-                               .bitDepth = scene->image.bitDepth,
-                               .encoding = scene->image.encoding,
-                               .samples = scene->render.samples,
-                               .threads = run->povrayThreads,
-                               .timeoutSeconds = POVRAY_TIMEOUT};
-    double start = secondsNow();
-    Status status = runPovray(textString(pov), &settings, povray);
-    job->result.povraySeconds = secondsSince(start);
-    return status;
-}
-
-static Status measurePictures(Run *run, Job *job, Pictures *pictures)
-{
-    SceneResult *result = &job->result;
-    Status status = checkComparable(&pictures->ours, "our picture", &pictures->povray, "POV-Ray's picture");
-    pthread_mutex_lock(&run->turn);
-    double start = secondsNow();
-    if (statusIsOk(&status))
-        status = measureImages(&pictures->ours, &pictures->povray, result->tolerance.fail, run->threads,
-                               &result->metrics);
-    if (statusIsOk(&status))
-        status = differencePicture(&pictures->ours, &pictures->povray, &pictures->difference);
-    result->compareSeconds = secondsSince(start);
-    pthread_mutex_unlock(&run->turn);
-    if (statusIsOk(&status))
-        result->verdict = judgeMetrics(&result->metrics, &result->tolerance);
-    return status;
-}
+/* ---- One scene ---- */
 
 /* Everything for a scene that was loaded. */
 static Status compareScene(Run *run, Job *job, Scene *scene)
@@ -263,31 +240,17 @@ static Status compareScene(Run *run, Job *job, Scene *scene)
     /* Compare where the two can agree to 1/65535: in 16 bits, linear. */
     scene->image.bitDepth = 16;
     scene->image.encoding = ENCODING_LINEAR;
-    job->result.tolerance = scene->tolerance;
-
-    Text pov = {0};
-    Pictures pictures = {0};
-    Status status = exportPov(scene, textString(&job->pov), &pov);
-    if (statusIsOk(&status))
-        status = protectScene(run, job);
-    if (statusIsOk(&status))
-        status = writeTextFile(run, textString(&job->pov), &pov);
-    if (statusIsOk(&status))
-        status = drawOurs(run, job, scene, &pictures.ours);
-    if (statusIsOk(&status))
-        status = drawWithPovray(run, job, scene, &pov, &pictures.povray);
-    textFree(&pov);
-    if (statusIsOk(&status))
-        status = measurePictures(run, job, &pictures);
-    if (statusIsOk(&status))
-        status = writePicture(run, &job->ours, &pictures.ours);
-    if (statusIsOk(&status))
-        status = writePicture(run, &job->povray, &pictures.povray);
-    if (statusIsOk(&status))
-        status = writePicture(run, &job->difference, &pictures.difference);
-    freeImage(&pictures.ours);
-    freeImage(&pictures.povray);
-    freeImage(&pictures.difference);
+    SceneResult *told = &job->result;
+    told->tolerance = scene->tolerance;
+    PictureResult result = {0};
+    Status status = comparePicture(&run->settings, scene, job->path, &job->files, &result, &job->messages);
+    told->metrics = result.metrics;
+    told->verdict = result.verdict;
+    told->renderSeconds = result.renderSeconds;
+    told->povraySeconds = result.povraySeconds;
+    told->compareSeconds = result.compareSeconds;
+    if (statusIsOk(&status) && run->arguments->perTerm)
+        status = compareTerms(run, job, scene);
     return status;
 }
 
@@ -328,9 +291,9 @@ static void runJob(void *context, size_t number)
 static int jobCode(const Job *job)
 {
     const SceneResult *result = &job->result;
-    return !statusIsOk(&result->status) ? (int)result->status.code
-           : result->verdict.pass       ? STATUS_OK
-                                        : STATUS_DIFFERENT;
+    return !statusIsOk(&result->status)               ? (int)result->status.code
+           : findSceneOutcome(result) == SCENE_AGREES ? STATUS_OK
+                                                      : STATUS_DIFFERENT;
 }
 
 /* Write results.json and index.html, and the results to standard output. Returns the exit code. */
@@ -345,7 +308,11 @@ static int reportResults(const Run *run, const SceneResult *results)
     Text json = {0}, command = {0};
     writeResultsJson(results, run->count, &json);
     appendCommandLine(&command, arguments, NULL, NULL);
-    Status status = writeTextFile(run, "results.json", &json);
+    Text resultsPath = pathInFolder(run->folder, "results.json");
+    Status status = json.failed || resultsPath.failed
+                        ? statusOutOfMemory()
+                        : writeWholeFile(resultsPath.data, textString(&json), json.length);
+    textFree(&resultsPath);
     if (statusIsOk(&status))
         status = command.failed ? statusOutOfMemory()
                                 : writeReport(run->folder, results, run->count, textString(&command));
@@ -358,7 +325,7 @@ static int reportResults(const Run *run, const SceneResult *results)
     int printed = printData(arguments->json ? &json : &words);
     textFree(&json);
     if (written == 0) {
-        Text page = pathInFolder(run, "index.html");
+        Text page = pathInFolder(run->folder, "index.html");
         printNote("the report is %s", textString(&page));
         textFree(&page);
     }
@@ -371,10 +338,9 @@ static void freeRun(Run *run)
     for (size_t i = 0; i < run->count; i++) {
         Job *job = &run->jobs[i];
         textFree(&job->name);
-        textFree(&job->ours);
-        textFree(&job->povray);
-        textFree(&job->difference);
-        textFree(&job->pov);
+        freePictureFiles(&job->files);
+        for (size_t t = 0; t < TERM_COUNT; t++)
+            freePictureFiles(&job->terms[t].files);
         textFree(&job->command);
         textFree(&job->messages);
     }
@@ -390,18 +356,20 @@ static Status prepareJobs(Run *run)
         Job *job = &run->jobs[i];
         job->path = run->arguments->operands[i];
         nameJob(run, i);
-        Text folder = pathInFolder(run, textString(&job->name));
+        Text folder = pathInFolder(run->folder, textString(&job->name));
         appendCommandLine(&job->command, run->arguments, job->path, textString(&folder));
         textFree(&folder);
-        if (job->name.failed || job->ours.failed || job->povray.failed || job->difference.failed ||
-            job->pov.failed || job->command.failed)
+        const PictureFiles *files = &job->files;
+        if (job->name.failed || files->ours.failed || files->povray.failed || files->difference.failed ||
+            files->pov.failed || job->command.failed)
             return statusOutOfMemory();
         job->result = (SceneResult){.scene = job->path,
-                                    .oursFile = job->ours.data,
-                                    .povrayFile = job->povray.data,
-                                    .differenceFile = job->difference.data,
-                                    .povFile = job->pov.data,
-                                    .command = job->command.data};
+                                    .oursFile = files->ours.data,
+                                    .povrayFile = files->povray.data,
+                                    .differenceFile = files->difference.data,
+                                    .povFile = files->pov.data,
+                                    .command = job->command.data,
+                                    .perTerm = run->arguments->perTerm};
     }
     return makeFolders(run->folder);
 }
@@ -417,11 +385,18 @@ int runCompare(const Arguments *arguments)
     size_t count = arguments->operandCount;
     int atOnce = count < MOST_AT_ONCE ? (int)count : MOST_AT_ONCE;
     int threads = chosenThreads(arguments);
+    /* With terms, what one scene leaves free is for its terms. */
+    int termsAtOnce = arguments->perTerm && atOnce > 0 ? MOST_AT_ONCE / atOnce : 1;
+    int povrays = atOnce * termsAtOnce;
     Run run = {.arguments = arguments,
                .folder = arguments->folder != NULL ? arguments->folder : DEFAULT_FOLDER,
                .jobs = calloc(count, sizeof(Job)),
-               .threads = threads,
-               .povrayThreads = threads > atOnce ? threads / atOnce : 1};
+               .termsAtOnce = termsAtOnce,
+               .settings = {.engine = chosenEngine(arguments),
+                            .threads = threads,
+                            .povrayThreads = threads > povrays ? threads / povrays : 1}};
+    run.settings.folder = run.folder;
+    run.settings.turn = &run.turn;
     pthread_mutex_init(&run.turn, NULL);
     pthread_mutex_init(&run.printing, NULL);
     SceneResult *results = calloc(count, sizeof *results);

@@ -1,6 +1,7 @@
-/* command_render.c - `eclairage render`: from a scene to a PNG. */
+/* command_render.c - `eclairage render`: from a scene to a PNG, and to those of --aov. */
 #include "base/json.h"
 #include "base/text.h"
+#include "cli/aov_files.h"
 #include "cli/command.h"
 #include "cli/drawing.h"
 #include "cli/scene_input.h"
@@ -24,7 +25,7 @@ static int64_t peakMemory(void)
 }
 
 static int printJson(const char *path, const Scene *scene, Engine engine, int threads, const Phases *phases,
-                     const RayCounts *rays)
+                     const RayCounts *rays, const AovFiles *aovs)
 {
     Text text = {0};
     JsonWriter json = jsonBegin(&text);
@@ -49,6 +50,8 @@ static int printJson(const char *path, const Scene *scene, Engine engine, int th
     jsonKeyInteger(&json, "secondary", (int64_t)rays->secondary);
     jsonEndObject(&json);
     jsonKeyInteger(&json, "peak_memory_bytes", peakMemory());
+    if (aovs->set != 0)
+        jsonAovFiles(&json, aovs, scene);
     jsonEndObject(&json);
     jsonEnd(&json);
     return printData(&text);
@@ -113,20 +116,26 @@ int runRender(const Arguments *arguments)
         appendNameBeside(path, ".png", &defaultName);
     const char *output = arguments->output != NULL ? arguments->output : textString(&defaultName);
     status = defaultName.failed ? statusOutOfMemory() : probeOutput(output);
+    AovFiles aovs = {.set = 0};
+    if (statusIsOk(&status))
+        status = prepareAovFiles(arguments->aovs, output, path, &aovs);
     if (statusIsOk(&status))
         status = renderToFile(&scene, path, chosenEngine(arguments), threads, output, &phases, &rays);
     phases.total = secondsSince(start);
+    if (statusIsOk(&status) && strcmp(output, "-") != 0)
+        printNote("wrote %s (%d x %d, %.2f s)", output, scene.image.width, scene.image.height, phases.total);
+    if (statusIsOk(&status) && aovs.set != 0) {
+        status = writeAovFiles(&aovs, &scene, path, chosenEngine(arguments), threads);
+        phases.total = secondsSince(start);
+    }
 
     int code = (int)status.code;
     if (!statusIsOk(&status)) {
         printError(displayName(path), &status);
-    } else {
-        if (strcmp(output, "-") != 0)
-            printNote("wrote %s (%d x %d, %.2f s)", output, scene.image.width, scene.image.height,
-                      phases.total);
-        if (arguments->json)
-            code = printJson(path, &scene, chosenEngine(arguments), threads, &phases, &rays);
+    } else if (arguments->json) {
+        code = printJson(path, &scene, chosenEngine(arguments), threads, &phases, &rays, &aovs);
     }
+    freeAovFiles(&aovs);
     textFree(&defaultName);
     freeScene(&scene);
     return code;

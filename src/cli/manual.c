@@ -4,6 +4,7 @@
  * them against what is written here. References: man(7); the section "Programmable Completion" of bash(1).
  */
 #include "cli/help.h"
+#include "explain/aov.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -167,6 +168,16 @@ static void appendValueCase(Text *text, const Option *option)
             textAppendFormat(text, "%s%s", i == 0 ? "" : " ", option->choices[i]);
         textAppend(text, "' -- \"$word\")\n");
         break;
+    case VALUE_AOVS:
+        /* Complete the last name of the list. */
+        textAppend(text, "      local given=''\n"
+                         "      [[ $word != *,* ]] || given=${word%,*},\n"
+                         "      compopt -o nospace 2>/dev/null\n"
+                         "      mapfile -t COMPREPLY < <(compgen -P \"$given\" -W '");
+        for (Aov aov = 0; aov < AOV_COUNT; aov++)
+            textAppendFormat(text, "%s ", aovName(aov));
+        textAppend(text, "all' -- \"${word##*,}\")\n");
+        break;
     case VALUE_FILE:
         textAppend(text, "      compopt -o filenames 2>/dev/null\n"
                          "      mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n");
@@ -225,10 +236,12 @@ void writeBashCompletion(Text *text)
         textAppendFormat(text, "  %s)\n    options='", COMMANDS[i].name);
         appendWords(text, COMMANDS[i].bit);
         textAppend(text, "'\n");
-        if (COMMANDS[i].operandKind == OPERANDS_SCENES)
+        if (COMMANDS[i].operandKind == OPERANDS_SCENES || COMMANDS[i].operandKind == OPERANDS_PIXEL)
             textAppend(text, "    operands='@(*.yaml|*.yml)'\n");
         else if (COMMANDS[i].operandKind == OPERANDS_PICTURES)
             textAppend(text, "    operands='*.png'\n");
+        else if (COMMANDS[i].operandKind == OPERANDS_SCENE_OR_PICTURES)
+            textAppend(text, "    operands='@(*.yaml|*.yml|*.png)'\n");
         textAppend(text, "    ;;\n");
     }
     textAppend(text, "  *)\n    options='");

@@ -2,6 +2,7 @@
 #include "cli/options.h"
 
 #include "base/text.h"
+#include "explain/aov.h"
 #include "scene/suggest.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 
 enum {
     DRAWING = COMMAND_RENDER | COMMAND_COMPARE,
-    SIZED = DRAWING | COMMAND_POV,
+    SIZED = DRAWING | COMMAND_POV | COMMAND_WHY,
     JUDGING = COMMAND_COMPARE | COMMAND_DIFF
 };
 
@@ -20,19 +21,26 @@ enum {
 const Option OPTIONS[] = {
     {"output", 'o', COMMAND_RENDER | COMMAND_POV | COMMAND_DIFF, VALUE_FILE, .placeholder = "FILE",
      FIELD(output), .help = "write to FILE; - is standard output"},
-    {"out", 0, COMMAND_COMPARE, VALUE_FOLDER, .placeholder = "DIR", FIELD(folder),
-     .help = "write the report and the pictures to DIR (eclairage-report)"},
-    {"width", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(width),
-     .help = "draw N pixels wide; without --height the scene's aspect is kept"},
-    {"height", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535, FIELD(height),
-     .help = "draw N pixels high; without --width the scene's aspect is kept"},
-    {"model", 0, SIZED, VALUE_CHOICE, .choices = {"simple", "lambert", "phong", "blinn_phong"}, FIELD(model),
+    {"out", 0, COMMAND_COMPARE | COMMAND_EXPLAIN, VALUE_FOLDER, .placeholder = "DIR", FIELD(folder),
+     .help = "write the report and the pictures to DIR"},
+    {"aov", 0, COMMAND_RENDER, VALUE_AOVS, .placeholder = "LIST", FIELD(aovs),
+     .help = "draw these as well, names with commas between, or all"},
+    {"per-term", 0, COMMAND_COMPARE, VALUE_NONE, FIELD(perTerm),
+     .help = "compare each term of the light as well; one that differs makes the scene differ"},
+    {"svg", 0, COMMAND_WHY, VALUE_FILE, .placeholder = "FILE", FIELD(svg),
+     .help = "draw the rays from the side to FILE; - is standard output"},
+    {"width", 0, SIZED | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535,
+     FIELD(width), .help = "draw N pixels wide; without --height the scene's aspect is kept"},
+    {"height", 0, SIZED | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 65535,
+     FIELD(height), .help = "draw N pixels high; without --width the scene's aspect is kept"},
+    {"model", 0, SIZED | COMMAND_EXPLAIN, VALUE_CHOICE,
+     .choices = {"simple", "lambert", "phong", "blinn_phong"}, FIELD(model),
      .help = "shade with this model, whatever the scene says"},
-    {"samples", 0, SIZED, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 64, FIELD(samples),
-     .help = "draw each pixel as the mean of N x N samples"},
-    {"threads", 0, DRAWING, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 256, FIELD(threads),
-     .help = "draw on N threads (one for each processor); the picture is the same"},
-    {"engine", 0, DRAWING, VALUE_CHOICE, .choices = {"fast", "reference"}, FIELD(engine),
+    {"samples", 0, SIZED | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 64,
+     FIELD(samples), .help = "draw each pixel as the mean of N x N samples"},
+    {"threads", 0, DRAWING | COMMAND_EXPLAIN, VALUE_WHOLE, .placeholder = "N", .minimum = 1, .maximum = 256,
+     FIELD(threads), .help = "draw on N threads (one for each processor); the picture is the same"},
+    {"engine", 0, DRAWING | COMMAND_EXPLAIN, VALUE_CHOICE, .choices = {"fast", "reference"}, FIELD(engine),
      .help = "how to draw; the picture is the same (default fast)"},
     {"encoding", 0, SIZED, VALUE_CHOICE, .choices = {"srgb", "linear"}, FIELD(encoding),
      .help = "store samples by the sRGB curve or as they are"},
@@ -50,7 +58,7 @@ const Option OPTIONS[] = {
      .help = "ask for a structural similarity of at least X"},
     {"flip", 0, JUDGING, VALUE_NUMBER, .placeholder = "X", .minimum = 0, .maximum = 1, FIELD(tolerance.flip),
      .help = "allow a mean FLIP error of at most X"},
-    {"json", 0, COMMAND_RENDER | COMMAND_COMPARE | COMMAND_DIFF | COMMAND_CHECK, VALUE_NONE, FIELD(json),
+    {"json", 0, ALL_COMMANDS & ~(COMMAND_POV | COMMAND_SCHEMA), VALUE_NONE, FIELD(json),
      .help = "write the result as JSON to standard output"},
     {"quiet", 'q', ALL_COMMANDS, VALUE_NONE, FIELD(quiet),
      .help = "show no progress and no notes; errors and warnings stay"},
@@ -94,6 +102,47 @@ static Status readChoice(const Option *option, const char *given, const char *va
     return status;
 }
 
+static Status unknownAov(const char *given, const char *name, size_t length)
+{
+    Suggestion suggestion = {.word = name, .length = length};
+    Text names = {0};
+    for (Aov aov = 0; aov < AOV_COUNT; aov++) {
+        textAppendFormat(&names, "%s%s", aov == 0 ? "" : ", ", aovName(aov));
+        tryCandidate(&suggestion, aovName(aov));
+    }
+    Status status;
+    if (suggestion.best != NULL)
+        status = statusError(STATUS_USAGE, "%s has no '%.*s'; did you mean '%s'? There are %s and all", given,
+                             (int)length, name, suggestion.best, textString(&names));
+    else
+        status = statusError(STATUS_USAGE, "%s has no '%.*s'; there are %s and all", given, (int)length, name,
+                             textString(&names));
+    textFree(&names);
+    return status;
+}
+
+/* Read names with commas between them. */
+static Status readAovs(const char *given, const char *value, unsigned *set)
+{
+    *set = 0;
+    for (const char *name = value;; name++) {
+        size_t length = strcspn(name, ",");
+        unsigned found = length == 3 && strncmp(name, "all", 3) == 0 ? ALL_AOVS : 0;
+        for (Aov aov = 0; aov < AOV_COUNT; aov++)
+            if (strlen(aovName(aov)) == length && strncmp(aovName(aov), name, length) == 0)
+                found = 1u << aov;
+        if (length == 0)
+            return statusError(STATUS_USAGE, "%s needs names with one comma between them, not '%s'", given,
+                               value);
+        if (found == 0)
+            return unknownAov(given, name, length);
+        *set |= found;
+        name += length;
+        if (*name == '\0')
+            return statusOk();
+    }
+}
+
 /* Read a decimal number and nothing else: no spaces, hexadecimals, nan or inf. */
 static bool readNumber(const char *value, double *number)
 {
@@ -130,6 +179,8 @@ static Status storeValue(const Option *option, const char *given, const char *va
     }
     case VALUE_CHOICE:
         return readChoice(option, given, value, field);
+    case VALUE_AOVS:
+        return readAovs(given, value, field);
     case VALUE_FILE:
     case VALUE_FOLDER:
         if (*value == '\0')
@@ -210,6 +261,14 @@ static Token readLetter(int argc, char **argv, int index, const char *letters)
 static bool looksLikeOption(const char *argument)
 {
     return argument[0] == '-' && argument[1] != '\0';
+}
+
+/* Whether it is a number below 0 where a command takes numbers: no option, but a wrong pixel, and the command
+ * says what is wrong with it. */
+static bool isNegativeOperand(const char *argument, const Command *command)
+{
+    return command != NULL && command->operandKind == OPERANDS_PIXEL && argument[0] == '-' &&
+           argument[1] >= '0' && argument[1] <= '9';
 }
 
 /* Name the option that was probably meant, among those that fit the command. */
@@ -339,18 +398,24 @@ static Status checkTogether(const Arguments *arguments)
     size_t count = arguments->operandCount;
     if (count < command->fewestOperands)
         return statusError(STATUS_USAGE, "'%s' needs %s", command->name,
-                           command->bit == COMMAND_DIFF ? "two pictures: A.png B.png"
-                           : command->mostOperands > 1  ? "at least one scene: SCENE.yaml"
-                                                        : "a scene: SCENE.yaml");
+                           command->bit == COMMAND_DIFF  ? "two pictures: A.png B.png"
+                           : command->bit == COMMAND_WHY ? "a scene and a pixel: SCENE.yaml X Y"
+                           : command->bit == COMMAND_EXPLAIN
+                               ? "a scene, a scene and a picture, or two pictures"
+                           : command->mostOperands > 1 ? "at least one scene: SCENE.yaml"
+                                                       : "a scene: SCENE.yaml");
     if (count > command->mostOperands)
         return statusError(STATUS_USAGE, "'%s' takes %s%s, and '%s' is too many", command->name,
                            command->mostOperands == 0 ? "no operands" : "only ",
-                           command->mostOperands == 0   ? ""
-                           : command->mostOperands == 1 ? "one scene"
-                                                        : "two pictures",
+                           command->mostOperands == 0        ? ""
+                           : command->bit == COMMAND_WHY     ? "one scene and a pixel"
+                           : command->bit == COMMAND_EXPLAIN ? "a scene and a picture, or two pictures"
+                           : command->mostOperands == 1      ? "one scene"
+                                                             : "two pictures",
                            arguments->operands[command->mostOperands]);
     size_t standardInputs = 0;
-    for (size_t i = 0; i < count; i++) {
+    size_t files = command->operandKind == OPERANDS_PIXEL ? 1 : count;
+    for (size_t i = 0; i < files; i++) {
         if (*arguments->operands[i] == '\0')
             return statusError(STATUS_USAGE, "the name of a file is empty");
         standardInputs += strcmp(arguments->operands[i], "-") == 0;
@@ -360,9 +425,16 @@ static Status checkTogether(const Arguments *arguments)
     if (standardInputs == 1 && command->bit == COMMAND_RENDER && arguments->output == NULL)
         return statusError(STATUS_USAGE, "a scene from standard input (-) has no name to make that of the "
                                          "picture from: give one with -o FILE");
+    if (arguments->aovs != 0 && arguments->output != NULL && strcmp(arguments->output, "-") == 0)
+        return statusError(STATUS_USAGE,
+                           "--aov writes its pictures beside that of -o, and -o - has no name to "
+                           "make theirs from: give -o a file");
     if (arguments->json && arguments->output != NULL && strcmp(arguments->output, "-") == 0)
         return statusError(STATUS_USAGE, "-o - and --json would both write to standard output: "
                                          "give -o a file");
+    if (arguments->json && arguments->svg != NULL && strcmp(arguments->svg, "-") == 0)
+        return statusError(STATUS_USAGE, "--svg - and --json would both write to standard output: "
+                                         "give --svg a file");
     return statusOk();
 }
 
@@ -395,7 +467,8 @@ Status parseArguments(int argc, char **argv, Arguments *arguments)
         if (!optionsEnded && strcmp(argv[i], "--") == 0) {
             optionsEnded = true;
             i++;
-        } else if (!optionsEnded && looksLikeOption(argv[i])) {
+        } else if (!optionsEnded && looksLikeOption(argv[i]) &&
+                   !isNegativeOperand(argv[i], arguments->command)) {
             status = readOption(argc, argv, &i, arguments);
         } else {
             /* The first operand is the name of the command. */

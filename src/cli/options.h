@@ -17,6 +17,7 @@ typedef enum ValueKind {
     VALUE_WHOLE,  /* int, minimum to maximum */
     VALUE_NUMBER, /* double, minimum to maximum */
     VALUE_CHOICE, /* int: the index among choices */
+    VALUE_AOVS,   /* unsigned: a set of Aovs, one bit each; names with commas between */
     VALUE_FILE,   /* const char * */
     VALUE_FOLDER  /* const char * */
 } ValueKind;

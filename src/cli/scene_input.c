@@ -111,6 +111,12 @@ const char *baseName(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
+bool isPictureName(const char *path)
+{
+    const char *dot = strrchr(baseName(path), '.');
+    return dot != NULL && strcasecmp(dot, ".png") == 0;
+}
+
 void appendNameBeside(const char *scene, const char *extension, Text *name)
 {
     const char *base = baseName(scene), *dot = strrchr(base, '.');

@@ -24,6 +24,9 @@ int chosenThreads(const Arguments *arguments);
  * extension in place of its own, any other name with the extension behind it. */
 void appendNameBeside(const char *scene, const char *extension, Text *name);
 
+/* Whether the path's name ends in .png, in any case. */
+bool isPictureName(const char *path);
+
 /* The part of a path behind its last slash. */
 const char *baseName(const char *path);
 

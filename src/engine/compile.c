@@ -586,6 +586,11 @@ void freeCompiledScene(CompiledScene *compiled)
     free(compiled);
 }
 
+const SurfaceFinder *compiledFinder(const CompiledScene *compiled)
+{
+    return &compiled->finder;
+}
+
 size_t compiledSceneBytes(const CompiledScene *c)
 {
     return sizeof *c + c->nodeCount * sizeof *c->nodes + c->sphereBlockCount * sizeof *c->sphereBlocks +

@@ -25,6 +25,9 @@ void freeCompiledScene(CompiledScene *compiled);
 Status renderCompiled(const CompiledScene *compiled, Framebuffer *framebuffer, const RenderOptions *options,
                       RayCounts *counts);
 
+/* What finds its surfaces one ray at a time, to the same bits; lives as long as the compiled scene. */
+const SurfaceFinder *compiledFinder(const CompiledScene *compiled);
+
 /* The bytes that it takes, without the scene. */
 size_t compiledSceneBytes(const CompiledScene *compiled);
 

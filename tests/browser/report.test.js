@@ -234,6 +234,15 @@ async function testMixed(folder) {
     same(await page.locator('.reasons').evaluateAll((all) => all.map((e) => e.closest('.scene').id)), ['scene-2', 'scene-3', 'scene-6'], 'scenes');
     holds((await page.locator('#scene-2 .reasons li').first().textContent()).length > 20, 'a sentence');
   });
+  await test('the table of terms names the one that disagrees, in words and with both pictures', async () => {
+    same(await page.locator('table.terms').count(), 1, 'tables');
+    same(await page.locator('table.terms tbody tr').evaluateAll((rows) => rows.map((row) => row.className)), ['agree', 'differ'], 'outcomes');
+    const text = await page.locator('table.terms tr.differ').innerText();
+    holds(/specular/i.test(text) && /disagrees/.test(text) && /\/65535/.test(text), text);
+    same((await page.locator('.reasons li', { hasText: 'term disagrees' }).allInnerTexts()).map((line) => line.split(':')[0]), ['The specular term disagrees'], 'reasons');
+    const widths = await page.locator('img.term-thumb').evaluateAll((images) => Promise.all(images.map((image) => image.decode().then(() => image.naturalWidth))));
+    same(widths, [240, 240, 240, 240], 'widths of the small pictures');
+  });
   await test('a metric beyond its limit says so in words', async () => {
     same(await page.locator('#scene-3 .metrics tbody tr').evaluateAll((rows) => rows.filter((r) => r.textContent.includes('✗ beyond')).map((r) => r.cells[0].firstChild.data)), ['Differing pixels', 'SSIM'], 'beyond');
     same(await page.locator('#scene-1 .held').evaluateAll((cells) => cells.map((c) => c.textContent).filter(Boolean)), ['✓ within', '✓ within', '✓ within'], 'within');

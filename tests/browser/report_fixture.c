@@ -123,6 +123,28 @@ static Status writeImageIn(const char *folder, const char *name, const Image *im
     return status;
 }
 
+/* Where the highlights differ: two terms, of which the diffuse one agrees. */
+static Status addTerms(const Image *ours, const char *oursFile, SceneResult *result)
+{
+    static TermResult terms[2];
+    terms[0] = (TermResult){.term = "diffuse",
+                            .oursFile = oursFile,
+                            .povrayFile = oursFile,
+                            .differenceFile = result->differenceFile,
+                            .povFile = result->povFile};
+    Status status = measureImages(ours, ours, result->tolerance.fail, 2, &terms[0].metrics);
+    terms[0].verdict = judgeMetrics(&terms[0].metrics, &result->tolerance);
+    terms[1] = terms[0];
+    terms[1].term = "specular";
+    terms[1].povrayFile = result->povrayFile;
+    terms[1].metrics = result->metrics;
+    terms[1].verdict = result->verdict;
+    result->terms = terms;
+    result->termCount = 2;
+    result->perTerm = true;
+    return status;
+}
+
 /* Make, measure and judge one scene, and write its pictures. */
 static Status makeResult(const char *folder, const FixtureScene *scene, unsigned number, SceneResult *result)
 {
@@ -157,7 +179,10 @@ static Status makeResult(const char *folder, const FixtureScene *scene, unsigned
     if (isnan(result->metrics.ssim))
         result->tolerance.ssim = NAN;
     result->verdict = judgeMetrics(&result->metrics, &result->tolerance);
-    status = writeImageIn(folder, result->oursFile, &a);
+    if (scene->change == CHANGE_HIGHLIGHT && number == 2)
+        status = addTerms(&a, result->oursFile, result);
+    if (statusIsOk(&status))
+        status = writeImageIn(folder, result->oursFile, &a);
     if (statusIsOk(&status))
         status = writeImageIn(folder, result->povrayFile, &b);
     if (statusIsOk(&status))

@@ -168,3 +168,56 @@ END
     try 0 compare -q s.yaml --bit-depth 16 --encoding linear
     isEmpty "$err"
 }
+
+@test "per term: each term has its files, and is in JSON" {
+    needs povray
+    makeScene s.yaml "$strict" 'background: [0, 0, 0.5]'
+    try 0 compare s.yaml --per-term --json
+    cmp "$out" eclairage-report/results.json
+    json '[.scenes[0].terms[].term] == ["diffuse", "specular", "background"]'
+    json '.scenes[0].terms | all(.pass and .pixels == 3072 and .reasons == [] and has("rmse"))'
+    for file in $(jq -r '.scenes[0].terms[].files[]' "$out"); do
+        [ -s "eclairage-report/$file" ]
+    done
+    [ "$(jq -r '.scenes[0].terms[0].files.pov' "$out")" = s-diffuse.pov ]
+    hasText eclairage-report/index.html "Term by term"
+    try 0 compare s.yaml --per-term
+    hasLine "$out" "        each term agrees: diffuse, specular, background"
+    try 0 compare s.yaml --json
+    json '.scenes[0] | has("terms") == false'
+    hasNoText eclairage-report/index.html "Term by term"
+    try 2 render s.yaml --per-term
+    hasText "$err" "'render' does not take --per-term, which is an option of compare"
+}
+
+@test "per term: the term that disagrees is named, and makes the scene differ" {
+    needs povray
+    makeScene s.yaml "$strict" 'background: [0, 0, 0.5]'
+    mkdir programs
+    # A POV-Ray with another shininess, but only where nothing is diffuse: the whole picture stays right.
+    cat >programs/povray <<END
+#!/bin/bash
+for word; do case \$word in +I*)
+    grep -q 'rgb <2, 0, 0>\|rgb <1, 0, 0>' "\${word#+I}" || sed -i 's/phong_size 32/phong_size 31/' "\${word#+I}" ;;
+esac; done
+exec $(command -v povray) "\$@"
+END
+    chmod +x programs/povray
+    PATH=$PWD/programs:$PATH try 1 compare s.yaml --per-term
+    hasText "$out" "        the specular term disagrees: "
+    hasNoText "$out" "diffuse term"
+    hasText eclairage-report/index.html "The specular term disagrees: "
+    hasNoText eclairage-report/index.html "The diffuse term disagrees: "
+    PATH=$PWD/programs:$PATH try 1 compare s.yaml --per-term --json
+    json '.pass == false and .scenes[0].pass == false and .scenes[0].reasons == []'
+    json '[.scenes[0].terms[] | select(.pass | not) | .term] == ["specular"]'
+}
+
+@test "per term: a scene called like another's term has files of its own" {
+    needs povray
+    makeScene s.yaml
+    makeScene s-diffuse.yaml
+    try 0 compare s.yaml s-diffuse.yaml --per-term --json
+    json '[.scenes[].files.pov] == ["s.pov", "s-diffuse-2.pov"]'
+    json '[.scenes[] | .files[], .terms[].files[]] | length == (unique | length)'
+}

@@ -5,7 +5,7 @@
 
 load helpers
 
-commands="render pov compare diff check schema"
+commands="render pov compare diff explain why check schema"
 
 # To renew: eclairage --help >tests/cli/expected/help.txt, and so on for each command.
 @test "the help is exactly as expected, on standard output" {
@@ -108,7 +108,7 @@ completes() {
     mkdir folder
     touch a.yaml b.yml c.png "with space.yaml"
     [ "$(completes re)" = "render " ]
-    [ "$(completes '')" = "--help --version check compare diff pov render schema " ]
+    [ "$(completes '')" = "--help --version check compare diff explain pov render schema why " ]
     [ "$(completes render --wi)" = "--width " ]
     [ "$(completes schema --)" = "--color --help --quiet --version " ]
     [ "$(completes render --model '')" = "blinn_phong lambert phong simple " ]

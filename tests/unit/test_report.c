@@ -322,6 +322,85 @@ static void testResultsText(void **state)
     textFree(&text);
 }
 
+/* Both pictures agree as wholes, the diffuse term too, and the specular one does not. */
+static void addTerms(SceneResult *result, TermResult terms[2])
+{
+    SceneResult agreeing = makeAgreeing(), differing = makeDiffering();
+    terms[0] = (TermResult){.term = "diffuse",
+                            .metrics = agreeing.metrics,
+                            .verdict = agreeing.verdict,
+                            .oursFile = "a-ours.png",
+                            .povrayFile = "a-povray.png",
+                            .differenceFile = "a-difference.png",
+                            .povFile = "a-diffuse.pov"};
+    terms[1] = terms[0];
+    terms[1].term = "specular";
+    terms[1].metrics = differing.metrics;
+    terms[1].verdict = differing.verdict;
+    result->terms = terms;
+    result->termCount = 2;
+    result->perTerm = true;
+}
+
+static void testTermsInWords(void **state)
+{
+    (void)state;
+    SceneResult result = makeAgreeing();
+    TermResult terms[2];
+    addTerms(&result, terms);
+    Text text = {0};
+    writeResultsText(&result, 1, false, &text);
+    assert_string_equal(
+        textString(&text),
+        "differ  scenes/a.yaml   0 of 307200 pixels differ, largest 1/65535 at (12, 40)\n"
+        "        the specular term disagrees: 1234 of 307200 pixels differ, largest 4660/65535 at (12, 40)\n"
+        "The scene differs from POV-Ray.\n");
+    textFree(&text);
+
+    /* All agree. */
+    terms[1].verdict = terms[0].verdict;
+    writeResultsText(&result, 1, false, &text);
+    assert_string_equal(textString(&text),
+                        "agree   scenes/a.yaml   0 of 307200 pixels differ, largest 1/65535\n"
+                        "        each term agrees: diffuse, specular\n"
+                        "The scene agrees with POV-Ray.\n");
+    textFree(&text);
+
+    /* There is none; and none was asked for. */
+    result.termCount = 0;
+    writeResultsText(&result, 1, false, &text);
+    assert_non_null(strstr(textString(&text), "        no term: the scene is black\n"));
+    textFree(&text);
+    result.perTerm = false;
+    writeResultsText(&result, 1, false, &text);
+    assert_null(strstr(textString(&text), "term"));
+    textFree(&text);
+}
+
+static void testTermsInJson(void **state)
+{
+    (void)state;
+    SceneResult result = makeAgreeing();
+    TermResult terms[2];
+    addTerms(&result, terms);
+    Text text = {0};
+    writeResultsJson(&result, 1, &text);
+    const char *array = strstr(textString(&text), "\"terms\": [");
+    assert_non_null(array);
+    assert_non_null(strstr(textString(&text), "\"pass\": false,\n  \"scenes\""));
+    const char *diffuse = strstr(array, "\"term\": \"diffuse\",\n          \"pass\": true,");
+    const char *specular = strstr(array, "\"term\": \"specular\",\n          \"pass\": false,");
+    assert_true(diffuse != NULL && specular != NULL && diffuse < specular);
+    assert_non_null(strstr(specular, "\"differing_pixels\": 1234,"));
+    assert_non_null(strstr(specular, "\"too far\""));
+    assert_non_null(strstr(specular, "\"pov\": \"a-diffuse.pov\""));
+    textFree(&text);
+    result.perTerm = false;
+    writeResultsJson(&result, 1, &text);
+    assert_null(strstr(textString(&text), "\"terms\""));
+    textFree(&text);
+}
+
 static void testMetricsText(void **state)
 {
     (void)state;
@@ -553,6 +632,8 @@ int main(void)
         cmocka_unit_test(testBase64),
         cmocka_unit_test(testRunVerdict),
         cmocka_unit_test(testResultsText),
+        cmocka_unit_test(testTermsInWords),
+        cmocka_unit_test(testTermsInJson),
         cmocka_unit_test(testMetricsText),
         cmocka_unit_test(testRounded),
         cmocka_unit_test(testMetricRows),

@@ -493,7 +493,7 @@ static void addHighlights(const TileLanes *tile, const LightLanes *arriving, uin
     }
 }
 
-/* As shadeLights. */
+/* As lightReturned. */
 static void shadeLights(TileLanes *tile)
 {
     const Scene *scene = tile->job->compiled->scene;

@@ -1,0 +1,366 @@
+/* explain_picture.c - see explain_picture.h. */
+#include "explain/explain_picture.h"
+
+#include "engine/engine.h"
+#include "explain/scene_lines.h"
+#include "explain/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of the pixels, so many may differ by more than rounding without there being a cause: rays that pass an edge
+ * on different sides. */
+static const double STRAY_SHARE = 1e-4;
+
+/* Of the pixels, so many must be specks for acne to be considered. */
+static const double SPECK_SHARE = 1.5e-3;
+
+void freePictureExplanation(PictureExplanation *explanation)
+{
+    freeExplanations(&explanation->causes);
+    textFree(&explanation->summary);
+}
+
+/* ---- A look at both pictures ---- */
+
+/* How two pictures of one size, as stored, lie apart. */
+typedef struct Look {
+    size_t pixels, differing; /* by more than rounding */
+    size_t below, above;      /* samples of mine that are one step below or above; more do not count */
+    size_t specks;            /* of mine: darker than the pixels on both sides, where the other is not */
+    size_t darker, brighter;  /* of those that differ */
+    double rmse;
+    int left, top, right, bottom; /* of those that differ */
+} Look;
+
+static float sampleAt(const Image *image, int x, int y, int c)
+{
+    return (float)image->samples[3 * ((size_t)y * (size_t)image->width + (size_t)x) + (size_t)c] /
+           (float)imageMaxSample(image);
+}
+
+static float linearAt(const Image *image, int x, int y, int c)
+{
+    float v = sampleAt(image, x, y, c);
+    return image->encoding == ENCODING_SRGB ? srgbToLinear(v) : v;
+}
+
+/* A sample of other as it would be stored in the format of image. */
+static float storedLike(const Image *image, const Image *other, int x, int y, int c)
+{
+    if (image->encoding == other->encoding)
+        return sampleAt(other, x, y, c);
+    return image->encoding == ENCODING_SRGB ? linearToSrgb(linearAt(other, x, y, c))
+                                            : linearAt(other, x, y, c);
+}
+
+static float brightness(const Image *image, int x, int y)
+{
+    return sampleAt(image, x, y, 0) + sampleAt(image, x, y, 1) + sampleAt(image, x, y, 2);
+}
+
+/* Whether the pixel is a hole in what surrounds it. */
+static bool isSpeck(const Image *image, int x, int y)
+{
+    float here = brightness(image, x, y);
+    float across = fminf(brightness(image, x - 1, y), brightness(image, x + 1, y));
+    float down = fminf(brightness(image, x, y - 1), brightness(image, x, y + 1));
+    return fmaxf(across, down) - here > 0.05f && here < 0.85f * fmaxf(across, down);
+}
+
+static Look lookAt(const Image *mine, const Image *other)
+{
+    Look look = {.pixels = (size_t)mine->width * (size_t)mine->height,
+                 .left = mine->width,
+                 .top = mine->height,
+                 .right = -1,
+                 .bottom = -1};
+    bool coarse = mine->bitDepth == 8 || other->bitDepth == 8;
+    float step = coarse ? 1.0f / 255 : 1.0f / 65535;
+    double sum = 0;
+    for (int y = 0; y < mine->height; y++) {
+        for (int x = 0; x < mine->width; x++) {
+            float most = 0, signedSum = 0;
+            for (int c = 0; c < 3; c++) {
+                float d = sampleAt(mine, x, y, c) - storedLike(mine, other, x, y, c);
+                sum += (double)(d * d);
+                most = fmaxf(most, fabsf(d));
+                signedSum += d;
+                look.below += d < -0.5f * step;
+                look.above += d > 0.5f * step;
+            }
+            if (most > 1.5f * step) {
+                look.differing++;
+                look.darker += signedSum < 0;
+                look.brighter += signedSum > 0;
+                look.left = x < look.left ? x : look.left;
+                look.top = y < look.top ? y : look.top;
+                look.right = x > look.right ? x : look.right;
+                look.bottom = y > look.bottom ? y : look.bottom;
+            }
+            bool inside = x > 0 && y > 0 && x < mine->width - 1 && y < mine->height - 1;
+            look.specks += inside && isSpeck(mine, x, y) && !isSpeck(other, x, y);
+        }
+    }
+    look.rmse = sqrt(sum / (3.0 * (double)look.pixels));
+    return look;
+}
+
+/* Whether what differs is rounding, but for stray pixels. */
+static bool isRounding(const Look *look)
+{
+    return (double)look->differing <= STRAY_SHARE * (double)look->pixels;
+}
+
+/* Whether mine was cut off where the other was rounded: many samples are a step lower and none is higher. */
+static bool isCutOff(const Look *look)
+{
+    return isRounding(look) && look->below > 3 * look->pixels / 10 && look->above * 50 < look->below;
+}
+
+static bool hasSpecks(const Look *look)
+{
+    return look->specks > 20 && (double)look->specks > SPECK_SHARE * (double)look->pixels;
+}
+
+/* ---- What is told ---- */
+
+static void appendShare(Text *text, size_t part, size_t whole)
+{
+    appendRounded(text, 100.0 * (double)part / (double)whole, 3);
+    textAppend(text, " %");
+}
+
+static void tellFindings(const Findings *findings, const Scene *scene, const SceneSource *source,
+                         const char *swappedName, Explanations *causes)
+{
+    for (int i = 0; i < findings->count; i++) {
+        const Finding *finding = &findings->items[i];
+        const Trait *trait = finding->trait;
+        Explanation *told = addExplanation(causes, trait->cause, finding->residual);
+        if (swappedName != NULL)
+            textAppendFormat(&told->text, "in %s ", swappedName);
+        trait->tell(trait, finding->number, scene, &told->text);
+        appendPlace(source != NULL ? source->name : NULL, source != NULL ? source->text : NULL, trait->key,
+                    trait->formula, &told->where);
+    }
+}
+
+static void tellAcne(double residual, Explanations *causes)
+{
+    Explanation *told = addExplanation(causes, CAUSE_ACNE, residual);
+    textAppend(&told->text,
+               "shadow acne: specks are darker than what surrounds them, since surfaces shadow "
+               "themselves; the ray to the light starts on the surface, a rounding error below it");
+    textAppend(&told->where,
+               "the shadow ray starts a little off the surface: offsetStart in src/raytracer.c");
+}
+
+static void tellCutOff(int bitDepth, double residual, Explanations *causes)
+{
+    Explanation *told = addExplanation(causes, CAUSE_QUANTISATION, residual);
+    textAppendFormat(&told->text,
+                     "the samples are cut off instead of rounded to %d bits: many are one step too low",
+                     bitDepth);
+    textAppend(&told->where, "sample = floor(v * (2^bits - 1) + 1/2)");
+}
+
+static void tellDepths(const Image *mine, const Image *other, double residual, Explanations *causes)
+{
+    Explanation *told = addExplanation(causes, CAUSE_QUANTISATION, residual);
+    textAppendFormat(
+        &told->text,
+        "one picture has %d bits a sample and the other %d; what differs is less than a step of 8 bits",
+        mine->bitDepth, other->bitDepth);
+    textAppend(&told->where, "sample = floor(v * (2^bits - 1) + 1/2)");
+}
+
+static void tellUnknown(const Look *look, bool hasScene, Explanations *causes)
+{
+    Explanation *told = addExplanation(causes, CAUSE_UNKNOWN, look->rmse);
+    textAppend(&told->text, "none of the mistakes that are known here fits; ");
+    appendShare(&told->text, look->differing, look->pixels);
+    textAppend(&told->text, " of the pixels differ, ");
+    textAppend(&told->text, look->darker > 9 * look->brighter   ? "nearly all of them darker"
+                            : look->brighter > 9 * look->darker ? "nearly all of them brighter"
+                                                                : "some darker and some brighter");
+    textAppend(&told->text, hasScene ? " than the scene's"
+                                     : " than the other's; mistakes in the light can only be "
+                                       "found from the scene: give it as the first of the two");
+    textAppendFormat(&told->where, "the pixels from (%d, %d) to (%d, %d)", look->left, look->top, look->right,
+                     look->bottom);
+}
+
+static void tellAgreement(const Look *look, Text *summary)
+{
+    if (look->differing == 0) {
+        textAppend(summary, "The pictures agree: no sample differs by more than rounding.");
+        return;
+    }
+    textAppendFormat(summary, "The pictures agree but for %zu of %zu pixels, too few to have a cause.",
+                     look->differing, look->pixels);
+}
+
+/* ---- Two pictures ---- */
+
+static Status checkSizes(const Image *a, const char *aName, const Image *b, const char *bName)
+{
+    if (a->width != b->width || a->height != b->height)
+        return statusError(STATUS_MISMATCH,
+                           "%s is %d x %d pixels and %s %d x %d: only pictures of one size can be explained",
+                           aName, a->width, a->height, bName, b->width, b->height);
+    return statusOk();
+}
+
+/* Search with one of two pictures as the right one. */
+static Status searchFrom(const Image *wrong, const Image *right, Traits *traits, Findings *findings)
+{
+    Truth truth = truthOfPicture(right);
+    listTraits(NULL, (StoredFormat){wrong->bitDepth, wrong->encoding}, traits);
+    return searchCauses(&truth, wrong, right, traits, findings);
+}
+
+/* The residual as a share of the difference; 1 where nothing was found. */
+static double shareLeft(const Findings *findings)
+{
+    return findings->count > 0 ? findings->items[findings->count - 1].residual / findings->before : 1;
+}
+
+static Status explainDifference(const Image *mine, const Image *reference, const char *referenceName,
+                                const Look *look, Explanations *causes)
+{
+    Traits *traits = malloc(2 * sizeof *traits);
+    if (traits == NULL)
+        return statusOutOfMemory();
+    Findings from, back = {0};
+    Status status = searchFrom(mine, reference, &traits[0], &from);
+    if (statusIsOk(&status) && shareLeft(&from) > 0.01)
+        status = searchFrom(reference, mine, &traits[1], &back);
+
+    /* Specks have no formula here, but nothing else makes them. */
+    bool isAcne =
+        hasSpecks(look) && look->darker > 20 * look->brighter && look->differing < look->pixels / 10 * 9;
+    if (!statusIsOk(&status))
+        ;
+    else if (isAcne && shareLeft(&from) > 0.05)
+        tellAcne(0, causes);
+    else if (from.count > 0 && (back.count == 0 || shareLeft(&from) <= 2 * shareLeft(&back)))
+        tellFindings(&from, NULL, NULL, NULL, causes);
+    else if (back.count > 0)
+        tellFindings(&back, NULL, NULL, referenceName, causes);
+    else
+        tellUnknown(look, false, causes);
+    free(traits);
+    return status;
+}
+
+Status explainPictures(const Image *mine, const char *mineName, const Image *reference,
+                       const char *referenceName, PictureExplanation *explanation)
+{
+    Status status = checkSizes(mine, mineName, reference, referenceName);
+    if (!statusIsOk(&status))
+        return status;
+    PictureExplanation found = {0};
+    Look look = lookAt(mine, reference), back = lookAt(reference, mine);
+    found.causes.before = look.rmse;
+    if (isRounding(&look) && mine->bitDepth != reference->bitDepth)
+        tellDepths(mine, reference, 0, &found.causes);
+    else if (isCutOff(&look) || isCutOff(&back))
+        tellCutOff(mine->bitDepth, 0, &found.causes);
+    else if (isRounding(&look))
+        tellAgreement(&look, &found.summary);
+    else
+        status = explainDifference(mine, reference, referenceName, &look, &found.causes);
+    if (!statusIsOk(&status))
+        freePictureExplanation(&found);
+    else
+        *explanation = found;
+    return status;
+}
+
+/* ---- A picture and its scene ---- */
+
+/* The picture as it should be stored, from the fast engine. */
+static Status drawRight(const CompiledScene *compiled, const Image *like, int threads, Image *right)
+{
+    Framebuffer *framebuffer = createFramebuffer(like->width, like->height);
+    if (framebuffer == NULL)
+        return statusOutOfMemory();
+    RenderOptions options = {.threads = threads};
+    Status status = renderCompiled(compiled, framebuffer, &options, NULL);
+    if (statusIsOk(&status))
+        status = imageFromFramebuffer(framebuffer, like->bitDepth, like->encoding, threads, right);
+    freeFramebuffer(framebuffer);
+    return status;
+}
+
+/* Leave acne out where there are no specks: with it, any lamp may be blocked anywhere, which explains too
+ * much. */
+static void dropAcne(Traits *traits)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < traits->count; i++)
+        if (traits->items[i].cause != CAUSE_ACNE)
+            traits->items[kept++] = traits->items[i];
+    traits->count = kept;
+}
+
+static Status explainFromScene(const Image *picture, const Image *right, const CompiledScene *compiled,
+                               const Scene *scene, const SceneSource *source, int threads, const Look *look,
+                               Explanations *causes)
+{
+    Traits *traits = malloc(sizeof *traits);
+    if (traits == NULL)
+        return statusOutOfMemory();
+    Truth truth;
+    Status status = truthOfScene(compiledFinder(compiled), threads, &truth);
+    if (!statusIsOk(&status)) {
+        free(traits);
+        return status;
+    }
+    listTraits(scene, (StoredFormat){picture->bitDepth, picture->encoding}, traits);
+    if (!hasSpecks(look))
+        dropAcne(traits);
+    Findings findings;
+    status = searchCauses(&truth, picture, right, traits, &findings);
+    if (statusIsOk(&status)) {
+        if (findings.count > 0)
+            tellFindings(&findings, scene, source, NULL, causes);
+        else
+            tellUnknown(look, true, causes);
+    }
+    freeTruth(&truth);
+    free(traits);
+    return status;
+}
+
+Status explainPictureOfScene(const Image *picture, const Scene *scene, const SceneSource *source, int threads,
+                             PictureExplanation *explanation)
+{
+    CompiledScene *compiled;
+    Status status = compileScene(scene, threads, &compiled);
+    if (!statusIsOk(&status))
+        return status;
+    Image right;
+    status = drawRight(compiled, picture, threads, &right);
+    if (statusIsOk(&status)) {
+        PictureExplanation found = {0};
+        Look look = lookAt(picture, &right);
+        found.causes.before = look.rmse;
+        if (isCutOff(&look))
+            tellCutOff(picture->bitDepth, 0, &found.causes);
+        else if (isRounding(&look))
+            tellAgreement(&look, &found.summary);
+        else
+            status =
+                explainFromScene(picture, &right, compiled, scene, source, threads, &look, &found.causes);
+        freeImage(&right);
+        if (statusIsOk(&status))
+            *explanation = found;
+        else
+            freePictureExplanation(&found);
+    }
+    freeCompiledScene(compiled);
+    return status;
+}

@@ -1,0 +1,261 @@
+/* predict.c - see predict.h. */
+#include "explain/predict.h"
+
+#include "base/cancel.h"
+#include "base/threads.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum {
+    CHUNK = 256 /* pixels a task */
+};
+
+Truth truthOfPicture(const Image *picture)
+{
+    return (Truth){.picture = picture, .threads = 1};
+}
+
+Status truthOfScene(const SurfaceFinder *finder, int threads, Truth *truth)
+{
+    bool failed;
+    size_t count;
+    uint32_t *transparent = findTransparentObjects(finder->scene, &count, &failed);
+    if (failed)
+        return statusOutOfMemory();
+    *truth = (Truth){.scene = finder->scene,
+                     .finder = finder,
+                     .transparent = transparent,
+                     .transparentCount = count,
+                     .threads = threads};
+    return statusOk();
+}
+
+void freeTruth(Truth *truth)
+{
+    free(truth->transparent);
+    truth->transparent = NULL;
+}
+
+/* ---- From a picture ---- */
+
+/* The range of linear colours that a sample may stand for: half a step of its rounding to both sides, and at
+ * the top all that was clamped. */
+static void sampleRange(const Image *image, size_t sample, float *low, float *middle, float *high)
+{
+    float highest = (float)imageMaxSample(image), v = (float)image->samples[sample];
+    float ends[3] = {fmaxf(v - 0.5f, 0) / highest, v / highest, fminf(v + 0.5f, highest) / highest};
+    if (image->encoding == ENCODING_SRGB)
+        for (int i = 0; i < 3; i++)
+            ends[i] = srgbToLinear(ends[i]);
+    *low = ends[0];
+    *middle = ends[1];
+    *high = v >= highest ? INFINITY : ends[2];
+}
+
+/* What lies at a point between four pixels: where they are alike, their mean; at an edge anything between. */
+static void lookUpBetween(const Image *image, double x, double y, int channel, float *low, float *middle,
+                          float *high)
+{
+    const float alike = 0.06f; /* of linear light: more is an edge */
+    int left = (int)floor(x), top = (int)floor(y);
+    float fx = (float)(x - left), fy = (float)(y - top);
+    float least = INFINITY, most = -INFINITY, sum = 0;
+    for (int j = 0; j < 2; j++) {
+        for (int i = 0; i < 2; i++) {
+            float share = (i == 1 ? fx : 1 - fx) * (j == 1 ? fy : 1 - fy);
+            if (share == 0)
+                continue;
+            size_t pixel = (size_t)(top + j) * (size_t)image->width + (size_t)(left + i);
+            float from, at, to;
+            sampleRange(image, 3 * pixel + (size_t)channel, &from, &at, &to);
+            least = fminf(least, from);
+            most = fmaxf(most, to);
+            sum += share * at;
+        }
+    }
+    *middle = sum;
+    bool isEdge = most - least > alike;
+    *low = isEdge ? least : sum - 0.25f * (sum - least);
+    *high = isEdge ? most : sum + 0.25f * (most - sum);
+}
+
+/* The colour that most corners have, which is taken for the background. */
+static void backgroundOf(const Image *image, const uint16_t **color)
+{
+    size_t w = (size_t)image->width, h = (size_t)image->height;
+    const uint16_t *corners[4] = {image->samples, image->samples + 3 * (w - 1),
+                                  image->samples + 3 * w * (h - 1), image->samples + 3 * (w * h - 1)};
+    int best = 0;
+    *color = corners[0];
+    for (int i = 0; i < 4; i++) {
+        int same = 0;
+        for (int j = 0; j < 4; j++)
+            same += corners[i][0] == corners[j][0] && corners[i][1] == corners[j][1] &&
+                    corners[i][2] == corners[j][2];
+        if (same > best) {
+            best = same;
+            *color = corners[i];
+        }
+    }
+}
+
+static void lookUpPixel(const Image *image, const uint16_t *background, const EvidencePixel *pixel,
+                        const ViewChange *view, size_t i, Prediction *prediction)
+{
+    double x = pixel->x + 0.5, y = pixel->y + 0.5;
+    changePoint(view, image->width, image->height, &x, &y);
+    x -= 0.5;
+    y -= 0.5;
+    if (fabs(x - round(x)) < 1e-6)
+        x = round(x);
+    if (fabs(y - round(y)) < 1e-6)
+        y = round(y);
+    if (!(x >= 0 && y >= 0 && x <= image->width - 1 && y <= image->height - 1)) {
+        prediction->low[0][3 * i] = 1;
+        prediction->high[0][3 * i] = 0;
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        size_t at = 3 * i + (size_t)c;
+        lookUpBetween(image, x, y, c, &prediction->low[0][at], &prediction->middle[at],
+                      &prediction->high[0][at]);
+    }
+    const uint16_t *nearest =
+        image->samples + 3 * ((size_t)lround(y) * (size_t)image->width + (size_t)lround(x));
+    prediction->places[i] =
+        (ValuePlace){.isSurface = nearest[0] != background[0] || nearest[1] != background[1] ||
+                                  nearest[2] != background[2]};
+}
+
+/* ---- From a scene ---- */
+
+typedef struct Tracing {
+    const Truth *truth;
+    const Evidence *evidence;
+    const ViewChange *view;
+    const ChangedFinder *finders; /* one for each alternative */
+    CameraFrame frame;
+    Media media; /* round a perspective camera */
+    Prediction *prediction;
+} Tracing;
+
+/* The mean colour of a pixel's rays. */
+static Color3f tracePixel(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel)
+{
+    const Truth *truth = tracing->truth;
+    const Evidence *evidence = tracing->evidence;
+    int n = truth->scene->render.samples;
+    double sum[3] = {0, 0, 0};
+    for (int k = 0; k < n * n; k++) {
+        double x = pixel->x + (k % n + 0.5) / n, y = pixel->y + (k / n + 0.5) / n;
+        changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
+        Ray ray = cameraRay(&tracing->frame, x, y, evidence->width, evidence->height);
+        Media media = tracing->media;
+        if (tracing->frame.projection != PROJECTION_PERSPECTIVE)
+            media = mediaAmong(truth->scene, truth->transparent, truth->transparentCount, ray.origin);
+        RayCounts counts = {0};
+        Color3f color = traceRay(finder, &ray, &media, 1, &counts);
+        if (n == 1)
+            return color;
+        sum[0] += (double)color.r;
+        sum[1] += (double)color.g;
+        sum[2] += (double)color.b;
+    }
+    double count = (double)n * n;
+    return createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
+}
+
+static ValuePlace findPlace(const Tracing *tracing, const EvidencePixel *pixel)
+{
+    double x = pixel->x + 0.5, y = pixel->y + 0.5;
+    const Evidence *evidence = tracing->evidence;
+    changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
+    Ray ray = cameraRay(&tracing->frame, x, y, evidence->width, evidence->height);
+    Hit hit;
+    const SurfaceFinder *finder = tracing->truth->finder;
+    if (finder->nearest(finder, &ray, &hit) == NULL)
+        return (ValuePlace){.isSurface = false};
+    return (ValuePlace){.isSurface = true,
+                        .diffuse = materialAt(hit.object, pointOnRay(&ray, hit.distance)).diffuse};
+}
+
+static void traceChunk(void *context, size_t number)
+{
+    const Tracing *tracing = context;
+    Prediction *prediction = tracing->prediction;
+    size_t end = (number + 1) * CHUNK < prediction->count ? (number + 1) * CHUNK : prediction->count;
+    for (size_t i = number * CHUNK; i < end && !cancelRequested(); i++) {
+        const EvidencePixel *pixel = &tracing->evidence->pixels[i];
+        for (int a = 0; a < prediction->alternatives; a++) {
+            Color3f color = tracePixel(tracing, &tracing->finders[a].finder, pixel);
+            const float channels[3] = {color.r, color.g, color.b};
+            for (size_t c = 0; c < 3; c++) {
+                prediction->low[a][3 * i + c] = prediction->high[a][3 * i + c] = channels[c];
+                if (a == 0)
+                    prediction->middle[3 * i + c] = channels[c];
+            }
+        }
+        prediction->places[i] = findPlace(tracing, pixel);
+    }
+}
+
+/* The ways in which lamps can be blocked: any of up to three; of more none, all, or one. */
+static int blockedWays(size_t lights, unsigned ways[MAX_ALTERNATIVES])
+{
+    int count = 0;
+    ways[count++] = 0;
+    if (lights <= 3) {
+        for (unsigned way = 1; way < 1u << lights; way++)
+            ways[count++] = way;
+        return count;
+    }
+    ways[count++] = ~0u;
+    for (size_t i = 0; i < lights && count < MAX_ALTERNATIVES; i++)
+        ways[count++] = 1u << i;
+    return count;
+}
+
+static Status predictFromScene(const Truth *truth, const Evidence *evidence, const ViewChange *view,
+                               const LightChange *light, bool acne, Prediction *prediction)
+{
+    unsigned ways[MAX_ALTERNATIVES] = {0};
+    int count = acne ? blockedWays(truth->scene->lightCount, ways) : 1;
+    Status status = createPrediction(evidence->count, count, prediction);
+    if (!statusIsOk(&status))
+        return status;
+    ChangedFinder finders[MAX_ALTERNATIVES];
+    for (int i = 0; i < count; i++) {
+        LightChange change = *light;
+        change.blockedLights = ways[i];
+        createChangedFinder(truth->finder, &change, &finders[i]);
+    }
+    const Scene *scene = truth->scene;
+    Tracing tracing = {
+        .truth = truth,
+        .evidence = evidence,
+        .view = view,
+        .finders = finders,
+        .frame = cameraFrame(&scene->camera, evidence->width, evidence->height),
+        .media = mediaAmong(scene, truth->transparent, truth->transparentCount, scene->camera.position),
+        .prediction = prediction};
+    status = runTasks((evidence->count + CHUNK - 1) / CHUNK, truth->threads, traceChunk, &tracing);
+    if (!statusIsOk(&status))
+        freePrediction(prediction);
+    return status;
+}
+
+Status predictPixels(const Truth *truth, const Evidence *evidence, const ViewChange *view,
+                     const LightChange *light, bool acne, Prediction *prediction)
+{
+    if (truth->scene != NULL)
+        return predictFromScene(truth, evidence, view, light, acne, prediction);
+    Status status = createPrediction(evidence->count, 1, prediction);
+    if (!statusIsOk(&status))
+        return status;
+    const uint16_t *background;
+    backgroundOf(truth->picture, &background);
+    for (size_t i = 0; i < evidence->count; i++)
+        lookUpPixel(truth->picture, background, &evidence->pixels[i], view, i, prediction);
+    return statusOk();
+}

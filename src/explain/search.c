@@ -1,0 +1,513 @@
+/* search.c - see search.h. */
+#include "explain/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    ROUGH_PIXELS = 250,   /* that pairs are tried on */
+    FINE_PIXELS = 1500,   /* that single traits, and the best pairs, are fitted to */
+    FULL_PIXELS = 120000, /* that the residuals are measured on */
+    ROUGH_STEP = 8,       /* of the pixels, while the grid of a number is gone through */
+    GOLDEN_STEPS = 12,
+    ROUGH_GOLDEN_STEPS = 5,
+    ROUGH_GRID = 6,   /* numbers of a grid that pairs are tried with */
+    KEPT_PAIRS = 24,  /* of the rough fits, measured again */
+    FITTED_PAIRS = 6, /* of those, fitted finely */
+    KEPT_VIEWS = 3
+};
+
+/* How much better a later hypothesis must be to take the place of an earlier, simpler one. */
+static const double MARGIN = 0.97;
+
+/* Two mistakes must leave less than this share of what one leaves. */
+static const double PAIR_SHARE = 0.6;
+
+/* What is left must be less than this share of what there was, for the cause to be named. */
+static const double EXPLAINED_SHARE = 0.3;
+
+typedef struct Search {
+    const Truth *truth;
+    const Traits *traits;
+    const Evidence *evidence;
+    Prediction right; /* the neutral hypothesis */
+    Status status;    /* the first failure */
+} Search;
+
+/* One or two traits with their numbers, and how well they fit. */
+typedef struct Candidate {
+    const Trait *traits[MOST_FINDINGS];
+    double numbers[MOST_FINDINGS];
+    int count;
+    double rmse;
+} Candidate;
+
+static Hypothesis hypothesisOf(const Candidate *candidate)
+{
+    Hypothesis hypothesis = neutralHypothesis();
+    for (int i = 0; i < candidate->count; i++)
+        candidate->traits[i]->apply(candidate->traits[i], candidate->numbers[i], &hypothesis);
+    return hypothesis;
+}
+
+/* Predict for a hypothesis, or borrow the neutral prediction where only values change. */
+static bool predictFor(Search *search, const Hypothesis *hypothesis, bool onlyValues, Prediction *prediction)
+{
+    if (onlyValues) {
+        *prediction = search->right;
+        return true;
+    }
+    if (!statusIsOk(&search->status))
+        return false;
+    search->status = predictPixels(search->truth, search->evidence, &hypothesis->view, &hypothesis->light,
+                                   hypothesis->acne, prediction);
+    return statusIsOk(&search->status);
+}
+
+static bool changesOnlyValues(const Candidate *candidate)
+{
+    for (int i = 0; i < candidate->count; i++)
+        if (candidate->traits[i]->part != TRAIT_VALUE)
+            return false;
+    return true;
+}
+
+/* The error that counts. A hypothesis that was let off at the edges must at least not be worse without that,
+ * and one that predicts little of the picture explains nothing. */
+static double scoreOf(const Misfit *misfit, double plainBefore)
+{
+    if (misfit->known < 0.3)
+        return INFINITY;
+    return misfit->plain > misfit->rmse * 1.2 && misfit->plain > 0.93 * plainBefore ? misfit->plain
+                                                                                    : misfit->rmse;
+}
+
+static double plainBefore(const Search *search)
+{
+    ValueChange neutral = neutralValueChange();
+    return measureMisfit(search->evidence, &search->right, &neutral, 1).plain;
+}
+
+/* ---- One number ---- */
+
+/* What the number of a trait is fitted with: all else of the hypothesis, and a prediction if the number does
+ * not change it. */
+typedef struct NumberFit {
+    Search *search;
+    Candidate *candidate;
+    int which;                    /* of the candidate's traits */
+    const Prediction *prediction; /* NULL: to be made for each number */
+    double before;
+} NumberFit;
+
+static double tryNumber(const NumberFit *fit, double number, size_t step)
+{
+    fit->candidate->numbers[fit->which] = number;
+    Hypothesis hypothesis = hypothesisOf(fit->candidate);
+    Prediction made;
+    const Prediction *prediction = fit->prediction;
+    if (prediction == NULL) {
+        if (!predictFor(fit->search, &hypothesis, false, &made))
+            return INFINITY;
+        prediction = &made;
+        step = 1;
+    }
+    Misfit misfit = measureMisfit(fit->search->evidence, prediction, &hypothesis.value, step);
+    if (fit->prediction == NULL)
+        freePrediction(&made);
+    return scoreOf(&misfit, fit->before);
+}
+
+static double toScale(const Trait *trait, double number)
+{
+    return trait->isLogarithmic ? log(number) : number;
+}
+
+static double fromScale(const Trait *trait, double scaled)
+{
+    return trait->isLogarithmic ? exp(scaled) : scaled;
+}
+
+/* Go through the grid of the trait's numbers, every stride-th, and return the place of the best. */
+static int goThroughGrid(const NumberFit *fit, int stride, size_t step)
+{
+    const Trait *trait = fit->candidate->traits[fit->which];
+    int best = 0;
+    double least = INFINITY;
+    for (int i = 0; i < trait->gridCount; i += stride) {
+        double rmse = tryNumber(fit, trait->grid[i], step);
+        if (rmse < least) {
+            least = rmse;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Narrow the number down between from and to by the golden section, and leave the best in the candidate. */
+static double narrowDown(const NumberFit *fit, double from, double to, int steps)
+{
+    const Trait *trait = fit->candidate->traits[fit->which];
+    const double ratio = 0.6180339887498949;
+    double a = toScale(trait, from), b = toScale(trait, to);
+    double x = b - ratio * (b - a), y = a + ratio * (b - a);
+    double atX = tryNumber(fit, fromScale(trait, x), 1), atY = tryNumber(fit, fromScale(trait, y), 1);
+    for (int i = 0; i < steps; i++) {
+        if (atX <= atY) {
+            b = y;
+            y = x;
+            atY = atX;
+            x = b - ratio * (b - a);
+            atX = tryNumber(fit, fromScale(trait, x), 1);
+        } else {
+            a = x;
+            x = y;
+            atX = atY;
+            y = a + ratio * (b - a);
+            atY = tryNumber(fit, fromScale(trait, y), 1);
+        }
+    }
+    double number = fromScale(trait, atX <= atY ? x : y), least = atX <= atY ? atX : atY;
+
+    /* A round number close by is likelier, if it fits as well. */
+    for (double digits = steps < GOLDEN_STEPS ? 1000 : 1; digits <= 100; digits *= 10) {
+        double rounded = round(number * digits) / digits;
+        if (fabs(rounded - number) > 0.02 * fabs(number) + 0.005 || (trait->isLogarithmic && rounded <= 0))
+            continue;
+        double rmse = tryNumber(fit, rounded, 1);
+        if (rmse <= least * 1.02 + 1e-9) {
+            number = rounded;
+            least = rmse;
+            break;
+        }
+    }
+    fit->candidate->numbers[fit->which] = number;
+    return least;
+}
+
+/* The best number of one trait of the candidate, with all else as it is. thorough: narrowed down. */
+static double fitNumber(const NumberFit *fit, bool thorough)
+{
+    const Trait *trait = fit->candidate->traits[fit->which];
+    if (trait->grid == NULL)
+        return tryNumber(fit, 0, 1);
+    bool isCheap = fit->prediction != NULL;
+    int stride = thorough || isCheap ? 1 : (trait->gridCount + ROUGH_GRID - 1) / ROUGH_GRID;
+    int best = goThroughGrid(fit, stride, isCheap && !trait->isWhole ? ROUGH_STEP : 1);
+    if (trait->isWhole || (!thorough && !isCheap))
+        return tryNumber(fit, trait->grid[best], 1);
+    const double *grid = trait->grid;
+    int last = trait->gridCount - 1;
+    return narrowDown(fit, grid[best > 0 ? best - 1 : 0], grid[best < last ? best + 1 : last],
+                      thorough ? GOLDEN_STEPS : ROUGH_GOLDEN_STEPS);
+}
+
+/* Narrow the number down between its neighbours in the grid. */
+static double fitNumberNear(const NumberFit *fit, double number)
+{
+    const Trait *trait = fit->candidate->traits[fit->which];
+    int last = trait->gridCount - 1, below = 0, above = last;
+    for (int i = 0; i <= last; i++) {
+        if (trait->grid[i] < number * (1 - 1e-9) - 1e-12)
+            below = i;
+        if (trait->grid[last - i] > number * (1 + 1e-9) + 1e-12)
+            above = last - i;
+    }
+    double old = tryNumber(fit, number, 1),
+           rmse = narrowDown(fit, trait->grid[below], trait->grid[above], GOLDEN_STEPS);
+    if (rmse <= old)
+        return rmse;
+    fit->candidate->numbers[fit->which] = number;
+    return old;
+}
+
+/* ---- One trait ---- */
+
+static double fitSingle(Search *search, Candidate *candidate, double before)
+{
+    bool isValue = candidate->traits[0]->part == TRAIT_VALUE;
+    NumberFit fit = {search, candidate, 0, isValue ? &search->right : NULL, before};
+    candidate->rmse = fitNumber(&fit, true);
+    return candidate->rmse;
+}
+
+/* ---- Two traits ---- */
+
+/* Roughly fit both: the first's numbers are gone through, and for each the second is fitted. */
+static void fitPairRoughly(Search *search, Candidate *pair, double before)
+{
+    const Trait *first = pair->traits[0];
+    bool secondIsValue = pair->traits[1]->part == TRAIT_VALUE;
+    int stride = first->grid == NULL ? 1 : (first->gridCount + ROUGH_GRID - 1) / ROUGH_GRID;
+    Candidate best = *pair;
+    best.rmse = INFINITY;
+    for (int i = 0; i == 0 || i < first->gridCount; i += stride) {
+        Candidate tried = *pair;
+        tried.numbers[0] = first->grid != NULL ? first->grid[i] : 0;
+        tried.numbers[1] = pair->traits[1]->grid != NULL ? pair->traits[1]->grid[0] : 0;
+        Prediction prediction;
+        const Prediction *shared = NULL;
+        Hypothesis hypothesis = hypothesisOf(&tried);
+        bool onlyValues = changesOnlyValues(&tried);
+        if (secondIsValue) {
+            if (!predictFor(search, &hypothesis, onlyValues, &prediction))
+                return;
+            shared = &prediction;
+        }
+        NumberFit fit = {search, &tried, 1, shared, before};
+        tried.rmse = fitNumber(&fit, false);
+        if (secondIsValue && !onlyValues)
+            freePrediction(&prediction);
+        if (tried.rmse < best.rmse)
+            best = tried;
+        if (!statusIsOk(&search->status))
+            return;
+    }
+    *pair = best;
+}
+
+/* The error of a candidate in this search's evidence. */
+static double measureCandidate(Search *search, const Candidate *candidate, double before)
+{
+    Hypothesis hypothesis = hypothesisOf(candidate);
+    bool onlyValues = changesOnlyValues(candidate);
+    Prediction prediction;
+    if (!predictFor(search, &hypothesis, onlyValues, &prediction))
+        return INFINITY;
+    Misfit misfit = measureMisfit(search->evidence, &prediction, &hypothesis.value, 1);
+    if (!onlyValues)
+        freePrediction(&prediction);
+    return scoreOf(&misfit, before);
+}
+
+/* Fit both in turns, starting from rough numbers, until nothing is left to gain. */
+static void fitPairFinely(Search *search, Candidate *pair, double before, double floorError)
+{
+    int turns = pair->traits[0]->grid != NULL && pair->traits[1]->grid != NULL ? 8 : 2;
+    for (int turn = 0; turn < turns && statusIsOk(&search->status) && pair->rmse > floorError; turn++) {
+        int which = (turn + 1) % 2;
+        const Trait *trait = pair->traits[which];
+        if (trait->grid == NULL || trait->isWhole)
+            continue;
+        Hypothesis hypothesis = hypothesisOf(pair);
+        bool isValue = trait->part == TRAIT_VALUE, onlyValues = changesOnlyValues(pair);
+        Prediction prediction;
+        if (isValue && !predictFor(search, &hypothesis, onlyValues, &prediction))
+            return;
+        NumberFit fit = {search, pair, which, isValue ? &prediction : NULL, before};
+        double was = pair->rmse;
+        pair->rmse = fitNumberNear(&fit, pair->numbers[which]);
+        if (isValue && !onlyValues)
+            freePrediction(&prediction);
+        if (turn >= 3 && pair->rmse > 0.98 * was)
+            break;
+    }
+}
+
+static void keepPair(Candidate *kept, int *count, const Candidate *pair)
+{
+    if (*count == KEPT_PAIRS && pair->rmse >= kept[KEPT_PAIRS - 1].rmse)
+        return;
+    int at = *count < KEPT_PAIRS ? (*count)++ : KEPT_PAIRS - 1;
+    while (at > 0 && kept[at - 1].rmse > pair->rmse) {
+        kept[at] = kept[at - 1];
+        at--;
+    }
+    kept[at] = *pair;
+}
+
+/* ---- The whole search ---- */
+
+/* Whether the trait's prediction is the right picture itself in the evidence: then it can be left out. */
+static bool changesNothing(Search *search, const Candidate *single)
+{
+    Hypothesis hypothesis = hypothesisOf(single);
+    Prediction prediction;
+    if (single->traits[0]->part != TRAIT_LIGHT || !predictFor(search, &hypothesis, false, &prediction))
+        return false;
+    bool same = true;
+    for (size_t i = 0; i < 3 * prediction.count && same; i++)
+        same = fabsf(prediction.low[0][i] - search->right.low[0][i]) < 1e-6f;
+    freePrediction(&prediction);
+    return same;
+}
+
+static Status beginSearch(Search *search, const Truth *truth, const Traits *traits, const Evidence *evidence)
+{
+    ViewChange view = neutralViewChange();
+    LightChange light = neutralLightChange();
+    *search = (Search){.truth = truth, .traits = traits, .evidence = evidence, .status = statusOk()};
+    return predictPixels(truth, evidence, &view, &light, false, &search->right);
+}
+
+/* What rounding alone may leave. */
+static double roundingFloor(const Truth *truth, const Evidence *evidence)
+{
+    bool coarse = evidence->format.bitDepth == 8 || (truth->picture != NULL && truth->picture->bitDepth == 8);
+    return coarse ? 0.4 / 255 : 0.6 / 65535;
+}
+
+/* Whether the pair is worth trying: of two views, or a view and something else, only the best views. */
+static bool isPairTried(const Search *search, const double *singles, size_t i, size_t j, double viewLimit)
+{
+    const Trait *a = &search->traits->items[i], *b = &search->traits->items[j];
+    if (!traitsCombine(a, b) || isinf(singles[i]) || isinf(singles[j]))
+        return false;
+    bool aView = a->part == TRAIT_VIEW && singles[i] > viewLimit;
+    bool bView = b->part == TRAIT_VIEW && singles[j] > viewLimit;
+    bool isTurned = a->cause == CAUSE_MIRRORED || a->cause == CAUSE_FLIPPED;
+    if (a->part == TRAIT_VIEW && b->part == TRAIT_VIEW)
+        return isTurned; /* mirrored and flipped, or one of them shifted or stretched */
+    return !aView && !bView;
+}
+
+/* The residual up to which views are among the best few. */
+static double limitOfViews(const Traits *traits, const double *viewScores)
+{
+    double best[KEPT_VIEWS];
+    for (int k = 0; k < KEPT_VIEWS; k++)
+        best[k] = INFINITY;
+    for (size_t i = 0; i < traits->count; i++) {
+        double score = viewScores[i];
+        for (int k = 0; k < KEPT_VIEWS && traits->items[i].part == TRAIT_VIEW; k++) {
+            if (score < best[k]) {
+                double moved = best[k];
+                best[k] = score;
+                score = moved;
+            }
+        }
+    }
+    return best[KEPT_VIEWS - 1];
+}
+
+/* Find the best single trait, and the residual of each alone; INFINITY for those that change nothing. */
+static Candidate findBestSingle(Search *search, double *singles, double *numbers, double floorError)
+{
+    Candidate best = {.rmse = INFINITY};
+    double before = plainBefore(search);
+    for (size_t i = 0; i < search->traits->count && statusIsOk(&search->status); i++) {
+        const Trait *trait = &search->traits->items[i];
+        Candidate single = {.traits = {trait}, .count = 1};
+        single.numbers[0] = trait->grid != NULL ? trait->grid[0] : 0;
+        singles[i] = changesNothing(search, &single) ? INFINITY : fitSingle(search, &single, before);
+        numbers[i] = single.numbers[0];
+        if (!isinf(singles[i]) && single.rmse < best.rmse * MARGIN - 0.2 * floorError * (best.count > 0))
+            best = single;
+    }
+    return best;
+}
+
+/* Order the two of a pair: first the one that explains more alone. */
+static void orderPair(const Search *search, const double *singles, Candidate *pair)
+{
+    size_t first = (size_t)(pair->traits[0] - search->traits->items);
+    size_t second = (size_t)(pair->traits[1] - search->traits->items);
+    if (singles[second] >= singles[first])
+        return;
+    const Trait *trait = pair->traits[0];
+    double number = pair->numbers[0];
+    pair->traits[0] = pair->traits[1];
+    pair->numbers[0] = pair->numbers[1];
+    pair->traits[1] = trait;
+    pair->numbers[1] = number;
+}
+
+static int findPairs(Search *rough, const double *singles, Candidate kept[KEPT_PAIRS])
+{
+    int count = 0;
+    double before = plainBefore(rough), limit = limitOfViews(rough->traits, singles);
+    for (size_t i = 0; i < rough->traits->count; i++) {
+        for (size_t j = 0; j < rough->traits->count && statusIsOk(&rough->status); j++) {
+            /* The part that needs a new prediction goes first, so that values are fitted to it. */
+            const Trait *a = &rough->traits->items[i], *b = &rough->traits->items[j];
+            if (a->part < b->part || (a->part == b->part && i >= j))
+                continue;
+            if (!isPairTried(rough, singles, i, j, limit))
+                continue;
+            Candidate pair = {.traits = {a, b}, .count = 2};
+            fitPairRoughly(rough, &pair, before);
+            keepPair(kept, &count, &pair);
+        }
+    }
+    return count;
+}
+
+/* Fit single traits and pairs of them, and choose. */
+static Candidate chooseCandidate(Search *fine, Search *rough, double *singles, double floorError)
+{
+    double numbers[MAX_TRAITS];
+    Candidate single = findBestSingle(fine, singles, numbers, floorError);
+    if (single.rmse <= 1.5 * floorError || !statusIsOk(&fine->status))
+        return single;
+    Candidate rougher[KEPT_PAIRS], kept[KEPT_PAIRS], best = {.rmse = INFINITY};
+    int roughCount = findPairs(rough, singles, rougher), count = 0;
+    double before = plainBefore(fine);
+    for (int i = 0; i < roughCount && statusIsOk(&fine->status); i++) {
+        rougher[i].rmse = measureCandidate(fine, &rougher[i], before);
+        keepPair(kept, &count, &rougher[i]);
+    }
+    for (int i = 0; i < count && i < FITTED_PAIRS && statusIsOk(&fine->status); i++) {
+        fitPairFinely(fine, &kept[i], before, floorError);
+        if (kept[i].rmse < best.rmse * MARGIN - 0.2 * floorError * (best.count > 0))
+            best = kept[i];
+    }
+    if (best.count == 0 || best.rmse > PAIR_SHARE * single.rmse)
+        return single;
+    orderPair(fine, singles, &best);
+    return best;
+}
+
+static void storeFindings(Search *full, const Candidate *chosen, double floorError, Findings *findings)
+{
+    ValueChange neutral = neutralValueChange();
+    findings->before = measureMisfit(full->evidence, &full->right, &neutral, 1).plain;
+    findings->count = 0;
+    if (chosen->count == 0)
+        return;
+    double before = plainBefore(full), left = measureCandidate(full, chosen, before);
+    bool isRounding = left <= 2 * floorError && findings->before >= 6 * floorError;
+    if (left > EXPLAINED_SHARE * findings->before && !isRounding)
+        return;
+    for (int i = 0; i < chosen->count; i++) {
+        Candidate part = *chosen;
+        part.count = i + 1;
+        findings->items[i] =
+            (Finding){.trait = chosen->traits[i],
+                      .number = chosen->numbers[i],
+                      .residual = i + 1 < chosen->count ? measureCandidate(full, &part, before) : left};
+    }
+    findings->count = chosen->count;
+    findings->chosen = hypothesisOf(chosen);
+}
+
+Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const Traits *traits,
+                    Findings *findings)
+{
+    *findings = (Findings){0};
+    /* Fewer pixels where each has many rays. */
+    int n = truth->scene != NULL ? truth->scene->render.samples : 1;
+    size_t share = (size_t)(n * n);
+    const size_t most[3] = {ROUGH_PIXELS / share + 200, FINE_PIXELS / share + 400,
+                            FULL_PIXELS / share + 2000};
+    Evidence evidence[3] = {{.count = 0}, {.count = 0}, {.count = 0}};
+    Search searches[3] = {{.truth = NULL}, {.truth = NULL}, {.truth = NULL}};
+    Status status = statusOk();
+    for (int i = 0; i < 3 && statusIsOk(&status); i++) {
+        status = gatherEvidence(wrong, right, most[i], &evidence[i]);
+        if (statusIsOk(&status))
+            status = beginSearch(&searches[i], truth, traits, &evidence[i]);
+    }
+    if (statusIsOk(&status)) {
+        double singles[MAX_TRAITS], floorError = roundingFloor(truth, &evidence[1]);
+        Candidate chosen = chooseCandidate(&searches[1], &searches[0], singles, floorError);
+        storeFindings(&searches[2], &chosen, floorError, findings);
+        for (int i = 0; i < 3 && statusIsOk(&status); i++)
+            status = searches[i].status;
+    }
+    for (int i = 0; i < 3; i++) {
+        freePrediction(&searches[i].right);
+        freeEvidence(&evidence[i]);
+    }
+    return status;
+}

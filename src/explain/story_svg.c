@@ -1,0 +1,819 @@
+/* story_svg.c - the rays of a pixel seen from the side; see story_writers.h.
+ *
+ * The drawing's plane holds the camera's ray and the light that matters most. Objects are drawn as the plane
+ * cuts them, all else as its projection onto the plane: a vector that leaves the plane is drawn shorter.
+ */
+#include "compare/rounding.h"
+#include "explain/cut_outline.h"
+#include "explain/story_writers.h"
+
+#include <string.h>
+
+enum {
+    WIDTH = 960,
+    HEIGHT = 720,
+    LEFT = 20,
+    TOP = 64,
+    VIEW_WIDTH = 920,
+    VIEW_HEIGHT = 540,
+    VECTOR_LENGTH = 84, /* of a unit vector in the plane */
+    MOST_OBJECTS = 24,
+    MOST_BOXES = 600,
+    MOST_RAYS_DRAWN = 40,
+    MOST_SHADOW_RAYS = 12
+};
+
+#define CAMERA_COLOR "#b45309"
+#define LIGHT_COLOR "#a16207"
+#define BLOCKED_COLOR "#c81e1e"
+#define MIRROR_COLOR "#1d4ed8"
+#define REFRACTED_COLOR "#0f766e"
+#define NORMAL_COLOR "#15803d"
+#define VIEW_COLOR "#6d28d9"
+#define HIGHLIGHT_COLOR "#be185d"
+#define INK "#1f2328"
+
+/* A rectangle that a label must not cover. */
+typedef struct LabelBox {
+    double x, y, width, height;
+} LabelBox;
+
+typedef struct Drawing {
+    const PixelStory *story;
+    Text *text;
+    Text labels; /* drawn last, above everything */
+    DrawingPlane plane;
+    const LightStory *light; /* the one in the plane, or NULL */
+    const Object *objects[MOST_OBJECTS];
+    size_t objectCount;
+    LabelBox labelBoxes[MOST_BOXES], lineBoxes[MOST_BOXES];
+    int labelCount, lineCount;
+    int raysDrawn;
+    bool hasMirrored, hasRefracted, hasBlocked, hasReaching, hasOmitted;
+} Drawing;
+
+/* ---- Pieces of SVG ---- */
+
+/* Append text with what XML keeps for itself escaped, and what it cannot hold replaced. */
+static void appendEscaped(Text *text, const char *words)
+{
+    for (const char *c = words; *c != '\0';) {
+        size_t length = utf8Length(c);
+        if (length == 0 || (length == 1 && (unsigned char)*c < 0x20) || *c == 0x7F) {
+            textAppend(text, "?");
+            length = 1;
+        } else if (length == 3 && memcmp(c, "\xEF\xBF", 2) == 0 && (unsigned char)c[2] >= 0xBE) {
+            textAppend(text, "?"); /* U+FFFE and U+FFFF */
+        } else if (*c == '&') {
+            textAppend(text, "&amp;");
+        } else if (*c == '<') {
+            textAppend(text, "&lt;");
+        } else if (*c == '>') {
+            textAppend(text, "&gt;");
+        } else if (*c == '"') {
+            textAppend(text, "&quot;");
+        } else {
+            textAppendBytes(text, c, length);
+        }
+        c += length;
+    }
+}
+
+static void appendRounded(Text *text, double value)
+{
+    char buffer[NUMBER_TEXT_SIZE];
+    textAppend(text, formatRounded(buffer, value == 0 ? 0 : value, 4));
+}
+
+static void appendAttribute(Text *text, const char *name, double value)
+{
+    textAppendFormat(text, " %s=\"", name);
+    appendPixels(text, value);
+    textAppend(text, "\"");
+}
+
+static void drawLine(Drawing *drawing, DrawnPoint a, DrawnPoint b, const char *attributes)
+{
+    Text *text = drawing->text;
+    textAppend(text, "<line");
+    appendAttribute(text, "x1", a.x);
+    appendAttribute(text, "y1", a.y);
+    appendAttribute(text, "x2", b.x);
+    appendAttribute(text, "y2", b.y);
+    textAppendFormat(text, " %s/>\n", attributes);
+    /* Let labels keep off it. */
+    double length = hypot(b.x - a.x, b.y - a.y);
+    int steps = length < 1000 ? (int)(length / 12) + 1 : 84;
+    for (int i = 0; i <= steps && drawing->lineCount < MOST_BOXES; i++)
+        drawing->lineBoxes[drawing->lineCount++] =
+            (LabelBox){a.x + (b.x - a.x) * i / steps - 3, a.y + (b.y - a.y) * i / steps - 3, 6, 6};
+}
+
+static void drawCircle(Text *text, DrawnPoint at, double radius, const char *attributes)
+{
+    textAppend(text, "<circle");
+    appendAttribute(text, "cx", at.x);
+    appendAttribute(text, "cy", at.y);
+    appendAttribute(text, "r", radius);
+    textAppendFormat(text, " %s/>\n", attributes);
+}
+
+static bool overlaps(const LabelBox *a, const LabelBox *boxes, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (a->x < boxes[i].x + boxes[i].width && boxes[i].x < a->x + a->width &&
+            a->y < boxes[i].y + boxes[i].height && boxes[i].y < a->y + a->height)
+            return true;
+    return false;
+}
+
+static size_t countCharacters(const char *words)
+{
+    size_t count = 0;
+    for (; *words != '\0'; words++)
+        count += ((unsigned char)*words & 0xC0) != 0x80;
+    return count;
+}
+
+/* Put a label near a point: the first place where it covers neither label nor line, else no label. Where
+ * there is none it is left out rather than put over another, unless it must be there. */
+static void putLabel(Drawing *drawing, DrawnPoint at, const char *words, const char *color, bool isCentred,
+                     bool mustBeThere)
+{
+    static const double ways[8][2] = {{0.7, -0.7}, {-0.7, -0.7}, {0.7, 0.7}, {-0.7, 0.7},
+                                      {0, -1},     {0, 1},       {1, 0},     {-1, 0}};
+    static const double distances[] = {0, 12, 20, 30, 44, 62, 84};
+    double width = 7.3 * (double)countCharacters(words) + 4, height = 16;
+    LabelBox best = {0};
+    bool found = false;
+    for (int pass = 0; pass < 2 && !found; pass++) {
+        for (size_t d = isCentred ? 0 : 1; d < sizeof distances / sizeof *distances && !found; d++) {
+            for (int way = 0; way < 8 && !found; way++) {
+                double dx = d > 0 ? ways[way][0] : 0, dy = d > 0 ? ways[way][1] : 0;
+                double centerX = at.x + dx * distances[d] +
+                                 (dx > 0.1    ? width / 2
+                                  : dx < -0.1 ? -width / 2
+                                              : 0);
+                double centerY = at.y + dy * distances[d];
+                LabelBox box = {centerX - width / 2, centerY - height / 2, width, height};
+                if (box.x < LEFT + 2 || box.x + width > LEFT + VIEW_WIDTH - 2 || box.y < TOP + 2 ||
+                    box.y + height > TOP + VIEW_HEIGHT - 2)
+                    continue;
+                found = !overlaps(&box, drawing->labelBoxes, drawing->labelCount) &&
+                        (pass == 1 || !overlaps(&box, drawing->lineBoxes, drawing->lineCount));
+                best = box;
+            }
+        }
+    }
+    if (!found && !(mustBeThere && best.width > 0))
+        return;
+    if (drawing->labelCount < MOST_BOXES)
+        drawing->labelBoxes[drawing->labelCount++] = best;
+    Text *text = &drawing->labels;
+    textAppend(text, "<text");
+    appendAttribute(text, "x", best.x + best.width / 2);
+    appendAttribute(text, "y", best.y + 12.5);
+    textAppendFormat(text, " fill=\"%s\">", color);
+    appendEscaped(text, words);
+    textAppend(text, "</text>\n");
+}
+
+static void reserve(Drawing *drawing, DrawnPoint at, double radius)
+{
+    if (drawing->labelCount < MOST_BOXES)
+        drawing->labelBoxes[drawing->labelCount++] =
+            (LabelBox){at.x - radius, at.y - radius, 2 * radius, 2 * radius};
+}
+
+/* ---- The plane ---- */
+
+static Vector3D withoutPart(Vector3D v, Vector3D along)
+{
+    return subVectors(v, multVector(along, dot(v, along)));
+}
+
+/* The light whose direction the plane holds: one that reaches the point, else one that is blocked, else any.
+ */
+static const LightStory *chooseLight(const RayStory *ray)
+{
+    static const LightFate order[] = {LIGHT_REACHES, LIGHT_BLOCKED, LIGHT_DARK, LIGHT_BEHIND};
+    for (size_t f = 0; f < sizeof order / sizeof *order; f++) {
+        size_t first = ray->lightCount, last = 0;
+        for (size_t i = 0; i < ray->lightCount; i++) {
+            if (ray->lights[i].fate != order[f] ||
+                (first < ray->lightCount && ray->lights[i].light != ray->lights[first].light))
+                continue;
+            first = first == ray->lightCount ? i : first;
+            last = i;
+        }
+        /* Of an area's, one in the middle of those. */
+        if (first < ray->lightCount)
+            for (size_t i = (first + last) / 2; i < ray->lightCount; i++)
+                if (ray->lights[i].fate == order[f])
+                    return &ray->lights[i];
+    }
+    return NULL;
+}
+
+static Vector3D endOfCameraRay(const RayStory *ray, double far)
+{
+    return ray->end == RAY_MEETS_SURFACE ? ray->point.position : pointOnRay(&ray->ray, far);
+}
+
+/* A length that fits the scene, for a ray that meets nothing. */
+static double sceneLength(const PixelStory *story)
+{
+    double length = 0;
+    for (size_t i = 0; i < story->scene->objectCount && i < 1000; i++) {
+        Bounds bounds;
+        if (objectBounds(&story->scene->objects[i], &bounds)) {
+            Vector3D middle = multVector(addVectors(bounds.min, bounds.max), 0.5);
+            length = fmax(length, fmin(norm(subVectors(middle, story->ray->ray.origin)), 1e6));
+        }
+    }
+    return length > 0 ? length : 5;
+}
+
+static void includePoint(DrawnPoint range[2], Vector3D origin, const DrawingPlane *plane, Vector3D p)
+{
+    Vector3D d = subVectors(p, origin);
+    double x = dot(d, plane->right), y = dot(d, plane->up);
+    range[0] = (DrawnPoint){fmin(range[0].x, x), fmin(range[0].y, y)};
+    range[1] = (DrawnPoint){fmax(range[1].x, x), fmax(range[1].y, y)};
+}
+
+static void choosePlane(Drawing *drawing, double far)
+{
+    const RayStory *ray = drawing->story->ray;
+    const Scene *scene = drawing->story->scene;
+    Vector3D a = ray->ray.direction, end = endOfCameraRay(ray, far);
+    Vector3D cameraUp = normalize(scene->camera.up);
+    bool hasPoint = ray->end == RAY_MEETS_SURFACE;
+    drawing->light = hasPoint && !ray->isUnlit ? chooseLight(ray) : NULL;
+
+    /* The second direction: to the light, or the normal, or the camera's up. */
+    Vector3D b =
+        drawing->light != NULL ? withoutPart(drawing->light->arriving.direction, a) : createVector(0, 0, 0);
+    if (norm(b) < 1e-3 && hasPoint)
+        b = withoutPart(ray->point.normal, a);
+    if (norm(b) < 1e-3)
+        b = withoutPart(cameraUp, a);
+    if (norm(b) < 1e-3)
+        b = withoutPart(fabs(a.x) < 0.9 ? createVector(1, 0, 0) : createVector(0, 1, 0), a);
+    b = normalize(b);
+    Vector3D normal = normalize(cross(a, b));
+
+    /* Up in the drawing is the camera's up, where that can be seen; the camera looks to the right. */
+    DrawingPlane *plane = &drawing->plane;
+    Vector3D up = withoutPart(cameraUp, normal);
+    plane->normal = normal;
+    plane->up = norm(up) > 0.25 ? normalize(up) : b;
+    plane->right = cross(plane->up, normal);
+    if (dot(plane->right, a) < 0)
+        plane->right = multVector(plane->right, -1);
+    plane->origin = end;
+
+    /* Hold the camera, the point, lights that are not too far, and what the ray meets. */
+    DrawnPoint range[2] = {{0, 0}, {0, 0}};
+    double size = fmax(norm(subVectors(end, ray->ray.origin)), 1e-9);
+    includePoint(range, end, plane, ray->ray.origin);
+    for (size_t i = 0; i < ray->lightCount && !ray->isUnlit; i++) {
+        const ArrivingLight *arriving = &ray->lights[i].arriving;
+        bool isMain = &ray->lights[i] == drawing->light;
+        if (isfinite(arriving->distance) && arriving->distance < (isMain ? 4 : 1.5) * size)
+            includePoint(range, end, plane, arriving->position);
+    }
+    Bounds bounds;
+    if (hasPoint && objectBounds(ray->point.object, &bounds) &&
+        norm(subVectors(bounds.max, bounds.min)) < 1.6 * size) {
+        Vector3D middle = multVector(addVectors(bounds.min, bounds.max), 0.5);
+        Vector3D half = multVector(subVectors(bounds.max, bounds.min), 0.5);
+        double radius = fmax(half.x, fmax(half.y, half.z));
+        const Vector3D ways[4] = {plane->right, multVector(plane->right, -1), plane->up,
+                                  multVector(plane->up, -1)};
+        for (int i = 0; i < 4; i++)
+            includePoint(range, end, plane, addVectors(middle, multVector(ways[i], radius)));
+    }
+    const double margin = 74;
+    double spanX = fmax(range[1].x - range[0].x, 1e-9), spanY = fmax(range[1].y - range[0].y, 1e-9);
+    plane->left = LEFT;
+    plane->top = TOP;
+    plane->width = VIEW_WIDTH;
+    plane->height = VIEW_HEIGHT;
+    plane->scale = fmin((VIEW_WIDTH - 2 * margin) / spanX, (VIEW_HEIGHT - 2 * margin) / spanY);
+    plane->originX = LEFT + VIEW_WIDTH / 2.0 - (range[0].x + range[1].x) / 2 * plane->scale;
+    plane->originY = TOP + VIEW_HEIGHT / 2.0 + (range[0].y + range[1].y) / 2 * plane->scale;
+}
+
+/* The part of the line from a towards b that is seen, a being inside. */
+static DrawnPoint clipped(DrawnPoint a, DrawnPoint b, double inset)
+{
+    double t = 1;
+    const double low[2] = {LEFT + inset, TOP + inset};
+    const double high[2] = {LEFT + VIEW_WIDTH - inset, TOP + VIEW_HEIGHT - inset};
+    const double from[2] = {a.x, a.y}, way[2] = {b.x - a.x, b.y - a.y};
+    for (int i = 0; i < 2; i++) {
+        if (from[i] + way[i] > high[i] && way[i] > 0)
+            t = fmin(t, (high[i] - from[i]) / way[i]);
+        if (from[i] + way[i] < low[i] && way[i] < 0)
+            t = fmin(t, (low[i] - from[i]) / way[i]);
+    }
+    t = fmax(t, 0);
+    return (DrawnPoint){a.x + t * way[0], a.y + t * way[1]};
+}
+
+/* ---- Objects ---- */
+
+static void wantObject(Drawing *drawing, const Object *object)
+{
+    if (object == NULL)
+        return;
+    for (size_t i = 0; i < drawing->objectCount; i++)
+        if (drawing->objects[i] == object)
+            return;
+    if (drawing->objectCount < MOST_OBJECTS)
+        drawing->objects[drawing->objectCount++] = object;
+    else
+        drawing->hasOmitted = true;
+}
+
+/* Those that the story speaks of first, then the others of the scene. */
+static void wantObjectsOf(Drawing *drawing, const RayStory *ray)
+{
+    if (ray == NULL)
+        return;
+    if (ray->end == RAY_MEETS_SURFACE) {
+        wantObject(drawing, ray->point.object);
+        for (size_t i = 0; i < ray->lightCount; i++) {
+            wantObject(drawing, ray->lights[i].blocker);
+            for (size_t c = 0; c < ray->lights[i].crossingCount && c < MOST_CROSSINGS; c++)
+                wantObject(drawing, ray->lights[i].crossings[c].object);
+        }
+    }
+    wantObjectsOf(drawing, ray->refracted);
+    wantObjectsOf(drawing, ray->mirrored);
+    for (size_t i = 0; i < ray->triedCount; i++)
+        if (ray->tried[i].part != NULL)
+            wantObject(drawing, ray->tried[i].object);
+}
+
+static void appendFill(Text *text, const Object *object)
+{
+    const Material *material = &object->material;
+    if (object->kind == SHAPE_CSG)
+        material = &object->csg.parts[0].material;
+    Color3f c = material->pattern != NULL ? createColor(0.5f, 0.5f, 0.5f) : material->diffuse;
+    textAppendFormat(text, "#%02x%02x%02x", quantizeSample(c.r, 8, ENCODING_SRGB),
+                     quantizeSample(c.g, 8, ENCODING_SRGB), quantizeSample(c.b, 8, ENCODING_SRGB));
+}
+
+/* A sphere: the exact circle of the cut, or, beside the plane, its silhouette. */
+static bool drawSphere(Drawing *drawing, const Object *object, DrawnPoint box[2])
+{
+    const DrawingPlane *plane = &drawing->plane;
+    Vector3D center = object->sphere.center;
+    double radius = object->sphere.radius;
+    double away = dot(subVectors(center, plane->origin), plane->normal);
+    bool isCut = fabs(away) < radius;
+    double drawn = (isCut ? sqrt(radius * radius - away * away) : radius) * plane->scale;
+    DrawnPoint at = drawnPoint(plane, center);
+    if (!(drawn < 5e4) || at.x + drawn < LEFT || at.x - drawn > LEFT + VIEW_WIDTH || at.y + drawn < TOP ||
+        at.y - drawn > TOP + VIEW_HEIGHT)
+        return false;
+    box[0] = (DrawnPoint){at.x - drawn, at.y - drawn};
+    box[1] = (DrawnPoint){at.x + drawn, at.y + drawn};
+    textAppend(drawing->text, "<g fill=\"");
+    appendFill(drawing->text, object);
+    textAppend(drawing->text, "\">");
+    drawCircle(drawing->text, at, drawn,
+               isCut ? "fill-opacity=\"0.22\" stroke=\"#57606a\" stroke-width=\"1.5\""
+                     : "fill-opacity=\"0.05\" stroke=\"#8c959f\" stroke-dasharray=\"2 4\"");
+    textAppend(drawing->text, "</g>\n");
+    return true;
+}
+
+static bool drawCut(Drawing *drawing, const Object *object, DrawnPoint box[2])
+{
+    Text path = {0};
+    CutKind kind = appendCutPath(&drawing->plane, object, &path, box);
+    Text *text = drawing->text;
+    if (kind == CUT_AREA) {
+        textAppend(text, "<path fill=\"");
+        appendFill(text, object);
+        textAppend(text, "\" fill-opacity=\"0.22\" fill-rule=\"evenodd\" stroke=\"#57606a\" "
+                         "stroke-width=\"1.5\" d=\"");
+    } else if (kind == CUT_DOTS) {
+        textAppend(text, "<path fill=\"none\" stroke=\"#57606a\" stroke-width=\"2.2\" "
+                         "stroke-linecap=\"round\" d=\"");
+    }
+    if (kind != CUT_NOTHING) {
+        textAppend(text, textString(&path));
+        textAppend(text, "\"/>\n");
+    }
+    text->failed = text->failed || path.failed;
+    textFree(&path);
+    return kind != CUT_NOTHING;
+}
+
+static void labelObject(Drawing *drawing, const Object *object, const DrawnPoint box[2])
+{
+    Text name = {0};
+    textAppend(&name, objectKindName(object));
+    if (object->line > 0)
+        textAppendFormat(&name, ", line %d", object->line);
+    double left = fmax(box[0].x, LEFT), right = fmin(box[1].x, LEFT + VIEW_WIDTH);
+    double top = fmax(box[0].y, TOP), bottom = fmin(box[1].y, TOP + VIEW_HEIGHT);
+    DrawnPoint at = {(left + right) / 2, (top + bottom) / 2};
+    putLabel(drawing, at, textString(&name), "#57606a", true, false);
+    drawing->text->failed = drawing->text->failed || name.failed;
+    textFree(&name);
+}
+
+/* ---- Rays and lights ---- */
+
+static void drawArrow(Drawing *drawing, DrawnPoint from, Vector3D v, const char *color, const char *marker,
+                      const char *name)
+{
+    const DrawingPlane *plane = &drawing->plane;
+    DrawnPoint to = {from.x + dot(v, plane->right) * VECTOR_LENGTH,
+                     from.y - dot(v, plane->up) * VECTOR_LENGTH};
+    Text attributes = {0};
+    textAppendFormat(&attributes, "stroke=\"%s\" stroke-width=\"2.5\" marker-end=\"url(#%s)\"", color,
+                     marker);
+    drawLine(drawing, from, to, textString(&attributes));
+    textFree(&attributes);
+    double length = hypot(to.x - from.x, to.y - from.y);
+    if (length > 1)
+        to = (DrawnPoint){to.x + (to.x - from.x) / length * 12, to.y + (to.y - from.y) / length * 12};
+    putLabel(drawing, to, name, color, true, true);
+}
+
+static void drawVectors(Drawing *drawing)
+{
+    const RayStory *ray = drawing->story->ray;
+    DrawnPoint p = drawnPoint(&drawing->plane, ray->point.position);
+    drawArrow(drawing, p, ray->point.normal, NORMAL_COLOR, "arrow-n", "N");
+    drawArrow(drawing, p, multVector(ray->ray.direction, -1), VIEW_COLOR, "arrow-v", "V");
+    const LightStory *light = drawing->light;
+    if (light == NULL)
+        return;
+    drawArrow(drawing, p, light->arriving.direction, LIGHT_COLOR, "arrow-l", "L");
+    if (light->hasHighlight)
+        drawArrow(drawing, p, light->r, HIGHLIGHT_COLOR, "arrow-r", ray->model == MODEL_PHONG ? "R" : "H");
+}
+
+/* A light as a small sun. */
+static void drawSun(Drawing *drawing, DrawnPoint at, const Light *lamp, size_t number, double distance,
+                    bool isOutside)
+{
+    if (!isOutside) {
+        for (int i = 0; i < 8; i++) {
+            double angle = i * 0.78539816339744831;
+            DrawnPoint from = {at.x + 9 * cos(angle), at.y + 9 * sin(angle)};
+            DrawnPoint to = {at.x + 14 * cos(angle), at.y + 14 * sin(angle)};
+            drawLine(drawing, from, to, "stroke=\"" LIGHT_COLOR "\" stroke-width=\"2\"");
+        }
+        drawCircle(drawing->text, at, 6.5,
+                   "fill=\"#facc15\" stroke=\"" LIGHT_COLOR "\" stroke-width=\"1.5\"");
+        reserve(drawing, at, 14);
+    }
+    Text name = {0};
+    textAppendFormat(&name, "light %zu, %s", number + 1, lightKindName(lamp));
+    if (isOutside && isfinite(distance)) {
+        textAppend(&name, ", at distance ");
+        appendRounded(&name, distance);
+    } else if (isOutside) {
+        textAppend(&name, ", from infinitely far");
+    }
+    putLabel(drawing, at, textString(&name), LIGHT_COLOR, false, true);
+    textFree(&name);
+}
+
+/* The way from a point to a light; dashed and red behind what blocks it. */
+static void drawShadowRay(Drawing *drawing, DrawnPoint p, const LightStory *light, DrawnPoint end)
+{
+    const char *free = "stroke=\"" LIGHT_COLOR "\" stroke-width=\"1.6\"";
+    if (light->fate == LIGHT_REACHES && (light->hasShadowRay || light->arriving.distance > 0)) {
+        drawing->hasReaching = true;
+        drawLine(drawing, p, end, free);
+        return;
+    }
+    if (light->fate == LIGHT_BLOCKED && light->blocker != NULL) {
+        drawing->hasBlocked = true;
+        DrawnPoint at = drawnPoint(&drawing->plane, pointOnRay(&light->shadow.ray, light->blockedAt));
+        drawLine(drawing, p, end,
+                 "stroke=\"" BLOCKED_COLOR "\" stroke-width=\"1.8\" stroke-dasharray=\"7 5\"");
+        drawLine(drawing, (DrawnPoint){at.x - 6, at.y - 6}, (DrawnPoint){at.x + 6, at.y + 6},
+                 "stroke=\"" BLOCKED_COLOR "\" stroke-width=\"3\"");
+        drawLine(drawing, (DrawnPoint){at.x - 6, at.y + 6}, (DrawnPoint){at.x + 6, at.y - 6},
+                 "stroke=\"" BLOCKED_COLOR "\" stroke-width=\"3\"");
+        if (light == drawing->light) {
+            reserve(drawing, at, 6);
+            Text name = {0};
+            textAppend(&name, "blocked here");
+            if (light->blocker->line > 0)
+                textAppendFormat(&name, " by line %d", light->blocker->line);
+            putLabel(drawing, at, textString(&name), BLOCKED_COLOR, false, true);
+            textFree(&name);
+        }
+        return;
+    }
+    drawLine(drawing, p, end, "stroke=\"#8c959f\" stroke-width=\"1\" stroke-dasharray=\"1 5\"");
+}
+
+static void drawLights(Drawing *drawing)
+{
+    const RayStory *ray = drawing->story->ray;
+    const Scene *scene = drawing->story->scene;
+    if (ray->end != RAY_MEETS_SURFACE || ray->isUnlit)
+        return;
+    DrawnPoint p = drawnPoint(&drawing->plane, ray->point.position);
+    size_t drawn = 0;
+    for (size_t i = 0; i < ray->lightCount; i++) {
+        const LightStory *light = &ray->lights[i];
+        const Light *lamp = &scene->lights[light->light];
+        bool isMain = light == drawing->light;
+        bool isShown =
+            lamp->kind == LIGHT_AREA ? light->sample % (lightSampleCount(lamp) / 6 + 1) == 0 : true;
+        if (!isMain && (!isShown || drawn >= MOST_SHADOW_RAYS)) {
+            drawing->hasOmitted = drawing->hasOmitted || isShown;
+            continue;
+        }
+        drawn++;
+        /* A light that is far is drawn in its direction, up to the border. */
+        DrawnPoint end = {p.x + dot(light->arriving.direction, drawing->plane.right) * 1e4,
+                          p.y - dot(light->arriving.direction, drawing->plane.up) * 1e4};
+        bool isOutside = true;
+        if (isfinite(light->arriving.distance)) {
+            DrawnPoint at = drawnPoint(&drawing->plane, light->arriving.position);
+            DrawnPoint inside = clipped(p, at, 20);
+            isOutside = hypot(inside.x - at.x, inside.y - at.y) > 0.5;
+            end = at;
+        }
+        end = clipped(p, end, 20);
+        drawShadowRay(drawing, p, light, end);
+        if (lamp->kind == LIGHT_AREA && !isOutside)
+            drawCircle(drawing->text, end, 3, "fill=\"#facc15\" stroke=\"" LIGHT_COLOR "\"");
+        if (lamp->kind != LIGHT_AREA || isMain)
+            drawSun(drawing, end, lamp, light->light, light->arriving.distance, isOutside);
+    }
+}
+
+/* Mirrored and refracted rays, as projected. */
+static void drawRays(Drawing *drawing, const RayStory *ray)
+{
+    if (ray == NULL || ray->end == RAY_TOO_DEEP || ray->end == RAY_NOT_TOLD)
+        return;
+    if (drawing->raysDrawn++ >= MOST_RAYS_DRAWN) {
+        drawing->hasOmitted = true;
+        return;
+    }
+    if (ray->depth > 1) {
+        DrawnPoint from = drawnPoint(&drawing->plane, ray->ray.origin), to;
+        if (ray->end == RAY_MEETS_SURFACE)
+            to = drawnPoint(&drawing->plane, ray->point.position);
+        else
+            to = (DrawnPoint){from.x + dot(ray->ray.direction, drawing->plane.right) * 160,
+                              from.y - dot(ray->ray.direction, drawing->plane.up) * 160};
+        bool isRefracted = ray->role == RAY_REFRACTED;
+        drawing->hasRefracted = drawing->hasRefracted || isRefracted;
+        drawing->hasMirrored = drawing->hasMirrored || !isRefracted;
+        drawLine(drawing, from, to,
+                 isRefracted ? "stroke=\"" REFRACTED_COLOR "\" stroke-width=\"2\""
+                             : "stroke=\"" MIRROR_COLOR "\" stroke-width=\"2\"");
+        if (ray->end == RAY_MEETS_SURFACE)
+            drawCircle(drawing->text, to, 3,
+                       isRefracted ? "fill=\"" REFRACTED_COLOR "\"" : "fill=\"" MIRROR_COLOR "\"");
+    }
+    drawRays(drawing, ray->refracted);
+    drawRays(drawing, ray->mirrored);
+}
+
+/* The camera as an eye-like triangle that opens along its view. */
+static void drawCamera(Drawing *drawing, DrawnPoint at)
+{
+    const Scene *scene = drawing->story->scene;
+    const DrawingPlane *plane = &drawing->plane;
+    Vector3D forward = normalize(scene->camera.direction);
+    double x = dot(forward, plane->right), y = -dot(forward, plane->up), length = hypot(x, y);
+    if (length < 0.05) {
+        x = 1;
+        y = 0;
+        length = 1;
+    }
+    x /= length;
+    y /= length;
+    Text *text = drawing->text;
+    textAppend(text, "<path fill=\"#ffffff\" stroke=\"" INK "\" stroke-width=\"2\" d=\"M");
+    const double corners[3][2] = {{0, 0}, {22, 11}, {22, -11}};
+    for (int i = 0; i < 3; i++) {
+        appendPixels(text, at.x + corners[i][0] * x - corners[i][1] * y);
+        textAppend(text, " ");
+        appendPixels(text, at.y + corners[i][0] * y + corners[i][1] * x);
+        textAppend(text, i < 2 ? "L" : "Z\"/>\n");
+    }
+    drawCircle(text, at, 5, "fill=\"" INK "\"");
+    reserve(drawing, at, 12);
+    putLabel(drawing, at, "camera", INK, false, true);
+}
+
+/* ---- The page ---- */
+
+static void appendMarker(Text *text, const char *name, const char *color)
+{
+    textAppendFormat(text,
+                     "<marker id=\"%s\" viewBox=\"0 0 10 10\" refX=\"8\" refY=\"5\" markerWidth=\"5\" "
+                     "markerHeight=\"5\" orient=\"auto-start-reverse\"><path d=\"M0 0L10 5L0 10z\" "
+                     "fill=\"%s\"/></marker>\n",
+                     name, color);
+}
+
+/* One entry of the legend. */
+static void legendEntry(Drawing *drawing, double *x, double *y, const char *stroke, const char *words)
+{
+    double width = 44 + 6.9 * (double)countCharacters(words);
+    if (*x + width > WIDTH - 20) {
+        *x = LEFT;
+        *y += 20;
+    }
+    Text *text = drawing->text;
+    textAppend(text, "<line");
+    appendAttribute(text, "x1", *x);
+    appendAttribute(text, "x2", *x + 24);
+    appendAttribute(text, "y1", *y - 4);
+    appendAttribute(text, "y2", *y - 4);
+    textAppendFormat(text, " %s/><text class=\"key\"", stroke);
+    appendAttribute(text, "x", *x + 30);
+    appendAttribute(text, "y", *y);
+    textAppend(text, ">");
+    appendEscaped(text, words);
+    textAppend(text, "</text>\n");
+    *x += width;
+}
+
+static void drawLegend(Drawing *drawing)
+{
+    const RayStory *ray = drawing->story->ray;
+    double x = LEFT, y = TOP + VIEW_HEIGHT + 26;
+    bool hasPoint = ray->end == RAY_MEETS_SURFACE;
+    legendEntry(drawing, &x, &y, "stroke=\"" CAMERA_COLOR "\" stroke-width=\"3\"", "ray of the camera");
+    if (drawing->hasReaching)
+        legendEntry(drawing, &x, &y, "stroke=\"" LIGHT_COLOR "\" stroke-width=\"1.6\"",
+                    "way to a light, free");
+    if (drawing->hasBlocked)
+        legendEntry(drawing, &x, &y,
+                    "stroke=\"" BLOCKED_COLOR "\" stroke-width=\"1.8\" stroke-dasharray=\"7 5\"",
+                    "way to a light, blocked at the cross");
+    if (drawing->hasMirrored)
+        legendEntry(drawing, &x, &y, "stroke=\"" MIRROR_COLOR "\" stroke-width=\"2\"", "mirrored ray");
+    if (drawing->hasRefracted)
+        legendEntry(drawing, &x, &y, "stroke=\"" REFRACTED_COLOR "\" stroke-width=\"2\"", "refracted ray");
+    if (hasPoint) {
+        legendEntry(drawing, &x, &y, "stroke=\"" NORMAL_COLOR "\" stroke-width=\"2.5\"", "N, the normal");
+        legendEntry(drawing, &x, &y, "stroke=\"" VIEW_COLOR "\" stroke-width=\"2.5\"", "V, to the eye");
+    }
+    if (drawing->light != NULL) {
+        legendEntry(drawing, &x, &y, "stroke=\"" LIGHT_COLOR "\" stroke-width=\"2.5\"", "L, to the light");
+        if (drawing->light->hasHighlight)
+            legendEntry(drawing, &x, &y, "stroke=\"" HIGHLIGHT_COLOR "\" stroke-width=\"2.5\"",
+                        ray->model == MODEL_PHONG ? "R, L mirrored at N" : "H, halfway between L and V");
+    }
+    Text *text = drawing->text;
+    textAppend(text, "<text class=\"note\" x=\"20\"");
+    appendAttribute(text, "y", y + 24);
+    textAppend(text,
+               ">Objects as the plane cuts them; a dotted circle: a sphere beside the plane. What leaves the "
+               "plane is drawn as its projection, so shorter.</text>\n");
+    if (drawing->hasOmitted) {
+        textAppend(text, "<text class=\"note\" x=\"20\"");
+        appendAttribute(text, "y", y + 42);
+        textAppend(text, ">Not all objects, lights and rays are drawn.</text>\n");
+    }
+}
+
+/* What the drawing shows, for those who cannot see it. */
+static void appendDescription(Drawing *drawing)
+{
+    const PixelStory *story = drawing->story;
+    const RayStory *ray = story->ray;
+    Text words = {0};
+    textAppend(&words, "The ray of the camera ");
+    if (ray->end == RAY_MEETS_SURFACE) {
+        textAppend(&words, "meets ");
+        appendObjectName(story->scene, ray->point.object, ray->point.hit.object, &words);
+        textAppend(&words, " at distance ");
+        appendRounded(&words, ray->point.hit.distance);
+        textAppend(&words, ".");
+    } else {
+        textAppend(&words, "meets nothing.");
+    }
+    const char *const fates[] = {[LIGHT_REACHES] = "reaches the point",
+                                 [LIGHT_BEHIND] = "is behind the surface",
+                                 [LIGHT_DARK] = "sends nothing to the point",
+                                 [LIGHT_BLOCKED] = "is blocked",
+                                 [LIGHT_NOT_ASKED] = "is not asked"};
+    for (size_t i = 0; i < ray->lightCount && i < 1000 && !ray->isUnlit; i++) {
+        const LightStory *light = &ray->lights[i];
+        /* Of an area's point lights one that fares as the one before it is not told again. */
+        if (i > 0 && light[-1].light == light->light && light[-1].fate == light->fate)
+            continue;
+        textAppendFormat(&words, " Light %zu%s %s", light->light + 1,
+                         story->scene->lights[light->light].kind == LIGHT_AREA ? ", a part of it," : "",
+                         fates[light->fate]);
+        if (light->blocker != NULL) {
+            textAppend(&words, " by ");
+            appendObjectName(story->scene, light->blocker, light->blockerPart, &words);
+        }
+        textAppend(&words, ".");
+    }
+    appendEscaped(drawing->text, textString(&words));
+    drawing->text->failed = drawing->text->failed || words.failed;
+    textFree(&words);
+}
+
+static void beginPage(Drawing *drawing, const char *name)
+{
+    Text *text = drawing->text;
+    textAppendFormat(text,
+                     "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+                     "height=\"%d\" fill=\"" INK "\" role=\"img\" aria-labelledby=\"title desc\">\n"
+                     "<title id=\"title\">Pixel (%d, %d) of ",
+                     WIDTH, HEIGHT, WIDTH, HEIGHT, drawing->story->x, drawing->story->y);
+    appendEscaped(text, name);
+    textAppend(text, ", seen from the side</title>\n<desc id=\"desc\">");
+    appendDescription(drawing);
+    textAppendFormat(text,
+                     "</desc>\n"
+                     "<style>text { font: 13px system-ui, sans-serif; text-anchor: middle; } .labels text { "
+                     "paint-order: stroke; stroke: #fbfbf9; stroke-width: 4px; "
+                     "stroke-linejoin: round; } .head { font-size: 17px; font-weight: 600; } .note { "
+                     "font-size: 12px; } .head, .note, .key { text-anchor: start; }</style>\n"
+                     "<defs><clipPath id=\"view\"><rect x=\"%d\" y=\"%d\" width=\"%d\" "
+                     "height=\"%d\"/></clipPath>\n",
+                     LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT);
+    appendMarker(text, "arrow-n", NORMAL_COLOR);
+    appendMarker(text, "arrow-v", VIEW_COLOR);
+    appendMarker(text, "arrow-l", LIGHT_COLOR);
+    appendMarker(text, "arrow-r", HIGHLIGHT_COLOR);
+    textAppendFormat(text,
+                     "</defs>\n<rect width=\"%d\" height=\"%d\" fill=\"#fbfbf9\"/>\n"
+                     "<text class=\"head\" x=\"20\" y=\"28\">Pixel (%d, %d) of ",
+                     WIDTH, HEIGHT, drawing->story->x, drawing->story->y);
+    appendEscaped(text, name);
+    textAppend(text, "</text>\n<text class=\"note\" x=\"20\" y=\"48\">The plane through "
+                     "the ray of the camera");
+    if (drawing->light != NULL)
+        textAppendFormat(text, " and light %zu", drawing->light->light + 1);
+    textAppendFormat(text,
+                     ", seen from the side</text>\n<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" "
+                     "fill=\"#ffffff\" stroke=\"#d0d7de\"/>\n",
+                     LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT);
+}
+
+void writeStorySvg(const PixelStory *story, const char *name, Text *text)
+{
+    Drawing drawing = {.story = story, .text = text};
+    const RayStory *ray = story->ray;
+    double far = sceneLength(story);
+    choosePlane(&drawing, far);
+    beginPage(&drawing, name);
+    textAppend(text, "<g clip-path=\"url(#view)\">\n");
+
+    /* Draw the objects; those of the story first on the list, the others as long as there is room. */
+    wantObjectsOf(&drawing, ray);
+    for (size_t i = 0; i < story->scene->objectCount && !drawing.hasOmitted; i++)
+        wantObject(&drawing, &story->scene->objects[i]);
+    DrawnPoint boxes[MOST_OBJECTS][2];
+    bool drawn[MOST_OBJECTS];
+    for (size_t i = 0; i < drawing.objectCount; i++) {
+        const Object *object = drawing.objects[i];
+        bool isRound = object->kind == SHAPE_SPHERE && object->transform == NULL;
+        drawn[i] = isRound ? drawSphere(&drawing, object, boxes[i]) : drawCut(&drawing, object, boxes[i]);
+    }
+
+    /* Draw rays, lights and vectors, then the labels of the objects where room is left. */
+    DrawnPoint camera = drawnPoint(&drawing.plane, ray->ray.origin);
+    DrawnPoint end = drawnPoint(&drawing.plane, endOfCameraRay(ray, far));
+    if (ray->end == RAY_MEETS_NOTHING)
+        end = (DrawnPoint){camera.x + 1.5 * (end.x - camera.x), camera.y + 1.5 * (end.y - camera.y)};
+    drawLine(&drawing, camera, end, "stroke=\"" CAMERA_COLOR "\" stroke-width=\"3\"");
+    drawRays(&drawing, ray);
+    drawCamera(&drawing, camera);
+    if (ray->end == RAY_MEETS_SURFACE) {
+        reserve(&drawing, end, 6);
+        drawLights(&drawing);
+        drawVectors(&drawing);
+        drawCircle(text, end, 4.5, "fill=\"" INK "\"");
+        putLabel(&drawing, end, "P", INK, false, true);
+    }
+    for (size_t i = 0; i < drawing.objectCount; i++)
+        if (drawn[i])
+            labelObject(&drawing, drawing.objects[i], boxes[i]);
+    textAppend(text, "</g>\n<g class=\"labels\">\n");
+    textAppend(text, textString(&drawing.labels));
+    textAppend(text, "</g>\n");
+    text->failed = text->failed || drawing.labels.failed;
+    textFree(&drawing.labels);
+    drawLegend(&drawing);
+    textAppend(text, "</svg>\n");
+}

@@ -1,0 +1,67 @@
+/* value_change.c - see value_change.h. */
+#include "explain/value_change.h"
+
+#include <math.h>
+
+ValueChange neutralValueChange(void)
+{
+    return (ValueChange){
+        .scale = 1, .linearPower = 1, .storedPower = 1, .storedScale = 1, .channels = {0, 1, 2}};
+}
+
+/* NaN becomes 0. */
+static float clampSample(float v)
+{
+    return v > 0 ? (v < 1 ? v : 1) : 0;
+}
+
+static float placedOffset(const ValueChange *change, const ValuePlace *place, int channel)
+{
+    if (change->offset == 0)
+        return 0;
+    const float diffuse[3] = {place->diffuse.r, place->diffuse.g, place->diffuse.b};
+    switch (change->offsetPlace) {
+    case OFFSET_ON_SURFACES:
+        return place->isSurface ? change->offset : 0;
+    case OFFSET_ON_DIFFUSE:
+        return place->isSurface ? change->offset * diffuse[channel] : 0;
+    default:
+        return change->offset;
+    }
+}
+
+static float toLevel(float v, float highest, bool truncated)
+{
+    return floorf(v * highest + (truncated ? 0 : 0.5f)) / highest;
+}
+
+void storedSamples(const ValueChange *change, StoredFormat format, const ValuePlace *place,
+                   const float linear[3], float stored[3])
+{
+    const float fileHighest = format.bitDepth == 16 ? 65535 : 255;
+    float samples[3];
+    for (int i = 0; i < 3; i++) {
+        /* Light. */
+        float v = linear[i] * change->scale + placedOffset(change, place, i);
+        if (change->linearPower != 1)
+            v = powf(clampSample(v), change->linearPower);
+        v = clampSample(v);
+        if (change->levels > 1 && change->levelsLinear)
+            v = toLevel(v, (float)(change->levels - 1), change->truncated);
+
+        /* The encoding: as often as the file says, and once more or once less. */
+        int times = (format.encoding == ENCODING_SRGB) + (change->encoding == ENCODED_TWICE) -
+                    (change->encoding == NOT_ENCODED);
+        for (; times > 0; times--)
+            v = linearToSrgb(v);
+        if (times < 0)
+            v = srgbToLinear(v);
+        if (change->storedPower != 1)
+            v = powf(v, change->storedPower);
+        samples[i] = clampSample(v * change->storedScale);
+        if (change->levels > 1 && !change->levelsLinear)
+            samples[i] = toLevel(samples[i], (float)(change->levels - 1), change->truncated);
+    }
+    for (int i = 0; i < 3; i++)
+        stored[i] = toLevel(samples[change->channels[i]], fileHighest, false);
+}
