@@ -2,6 +2,7 @@
 #include "explain/explain_picture.h"
 
 #include "engine/engine.h"
+#include "explain/local_difference.h"
 #include "explain/scene_lines.h"
 #include "explain/search.h"
 
@@ -176,6 +177,30 @@ static void tellDepths(const Image *mine, const Image *other, double residual, E
     textAppend(&told->where, "sample = floor(v * (2^bits - 1) + 1/2)");
 }
 
+/* A guess from the two pictures alone, and how to be sure. */
+static void tellLocal(const LocalDifference *local, double residual, Explanations *causes)
+{
+    Explanation *told = addExplanation(causes, local->cause, residual);
+    const char *place = local->mineIsBrighter ? "the first picture" : "the second picture";
+    if (local->cause == CAUSE_SHADOW) {
+        textAppendFormat(
+            &told->text,
+            "shadows are missing in %s: the other one has an edge where this one is smooth, and they "
+            "agree elsewhere",
+            place);
+        textAppend(&told->where, "a light counts if nothing lies strictly between the point and it");
+    } else if (local->cause == CAUSE_SPECULAR) {
+        textAppendFormat(&told->text, "%s has a highlight that the other one has not", place);
+        textAppend(&told->where, "Ispec * Lc * max(0, dot(R, V))^shininess / d^2");
+    } else {
+        textAppendFormat(
+            &told->text,
+            "the highlights are wider in %s: another shininess, or Blinn's highlight for Phong's", place);
+        textAppend(&told->where, "Ispec * Lc * max(0, dot(R, V))^shininess / d^2");
+    }
+    textAppend(&told->text, " (to be sure, give the scene as the first of the two)");
+}
+
 static void tellUnknown(const Look *look, bool hasScene, Explanations *causes)
 {
     Explanation *told = addExplanation(causes, CAUSE_UNKNOWN, look->rmse);
@@ -227,6 +252,21 @@ static double shareLeft(const Findings *findings)
     return findings->count > 0 ? findings->items[findings->count - 1].residual / findings->before : 1;
 }
 
+/* Where no formula fits: what kind of part it is that differs. */
+static Status explainLocally(const Image *mine, const Image *reference, const Look *look,
+                             Explanations *causes)
+{
+    LocalDifference local;
+    Status status = findLocalDifference(mine, reference, &local);
+    if (!statusIsOk(&status))
+        return status;
+    if (local.cause == CAUSE_UNKNOWN)
+        tellUnknown(look, false, causes);
+    else
+        tellLocal(&local, 0, causes);
+    return status;
+}
+
 static Status explainDifference(const Image *mine, const Image *reference, const char *referenceName,
                                 const Look *look, Explanations *causes)
 {
@@ -250,7 +290,7 @@ static Status explainDifference(const Image *mine, const Image *reference, const
     else if (back.count > 0)
         tellFindings(&back, NULL, NULL, referenceName, causes);
     else
-        tellUnknown(look, false, causes);
+        status = explainLocally(mine, reference, look, causes);
     free(traits);
     return status;
 }

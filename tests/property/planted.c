@@ -263,25 +263,26 @@ typedef struct Mistake {
     double stretch;     /* of the camera's right vector; 0: none */
     void (*inPicture)(Framebuffer *framebuffer);
     float (*inSamples)(float v); /* as stored, 0..1 */
+    bool isSeenAlone;            /* where it is the only one, two pictures are enough */
 } Mistake;
 
 #define FLAG(name) .studentFlag = offsetof(Student, name)
 
 static const Mistake MISTAKES[] = {
-    {"no shadows", CAUSE_SHADOW, .inScene = noShadows},
+    {"no shadows", CAUSE_SHADOW, .inScene = noShadows, .isSeenAlone = true},
     {"shadows from behind the light", CAUSE_SHADOW, FLAG(allShadows)},
     {"no falloff", CAUSE_FALLOFF, .inScene = noFalloff},
     {"falloff 1/d", CAUSE_FALLOFF, FLAG(inverse)},
     {"falloff 1/(1+d^2)", CAUSE_FALLOFF, FLAG(oneMore)},
     {"the other highlight", CAUSE_BLINN, .inScene = blinnForPhong},
-    {"shininess 10", CAUSE_SHININESS, .inScene = shininessTen},
+    {"shininess 10", CAUSE_SHININESS, .inScene = shininessTen, .isSeenAlone = true},
     {"shininess times 2.5", CAUSE_SHININESS, .inScene = shininessDoubled},
-    {"no highlight", CAUSE_SPECULAR, .inScene = noSpecular},
+    {"no highlight", CAUSE_SPECULAR, .inScene = noSpecular, .isSeenAlone = true},
     {"highlight without falloff", CAUSE_SPECULAR, FLAG(shortHighlight)},
     {"negative light", CAUSE_NEGATIVE_LIGHT, FLAG(unclamped)},
     {"absolute N.L", CAUSE_NEGATIVE_LIGHT, FLAG(absolute)},
     {"normals flipped", CAUSE_NORMALS, FLAG(flipped)},
-    {"acne", CAUSE_ACNE, .inScene = biasZero},
+    {"acne", CAUSE_ACNE, .inScene = biasZero, .isSeenAlone = true},
     {"half the light", CAUSE_EXPOSURE, .inScene = lightsHalved},
     {"ambient times diffuse", CAUSE_AMBIENT, .inScene = ambientAdded},
     {"exposure 1.7", CAUSE_EXPOSURE, .inPicture = doubleExposure},
@@ -442,7 +443,8 @@ static void plant(Tally *tally, const char *path, const Scene *scene, const Mist
             judge(tally, name, "with the scene", mistakes, &explanation, now() - start);
             freePictureExplanation(&explanation);
         }
-        if (!needsScene(first) && !needsScene(second)) {
+        bool isEnough = !needsScene(first) || (first->isSeenAlone && second == NULL);
+        if (isEnough && !needsScene(second)) {
             start = now();
             status = explainPictures(&planted, "planted", &honest, "honest", &explanation);
             if (statusIsOk(&status)) {
@@ -474,11 +476,11 @@ static void plantAll(Tally *tally, const char *path, const Scene *scene, int num
     int bits = number % 3 == 2 ? 16 : 8;
     Encoding encoding = number % 3 == 2 ? ENCODING_LINEAR : ENCODING_SRGB;
     for (int m = 0; m < MISTAKE_COUNT; m++)
-        if (tally->all || (m + number) % 3 == 0)
+        if (tally->all || (m + number) % 4 == 0)
             plant(tally, path, scene, &MISTAKES[m], NULL, bits, encoding);
     for (int m = 0; m < MISTAKE_COUNT; m++) {
         int other = (m + 5 + 7 * number) % MISTAKE_COUNT;
-        if ((m + number) % (tally->all ? 3 : 7) == 0 && canMeet(&MISTAKES[m], &MISTAKES[other]))
+        if ((m + number) % (tally->all ? 3 : 8) == 0 && canMeet(&MISTAKES[m], &MISTAKES[other]))
             plant(tally, path, scene, &MISTAKES[m], &MISTAKES[other], bits, encoding);
     }
 }
