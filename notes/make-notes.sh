@@ -203,7 +203,7 @@ END
 <nav aria-label="Language · Langue">
 END
     [ ! -d "$out/en" ] || echo '<a href="en/index.html" lang="en" hreflang="en"><b>English</b><span class="soft">The notes</span></a>'
-    [ ! -d "$out/fr" ] || echo '<a href="fr/index.html" lang="fr" hreflang="fr"><b>Français</b><span class="soft">Le cours</span></a>'
+    [ ! -d "$out/fr" ] || echo '<a href="fr/index.html" lang="fr" hreflang="fr"><b>Français</b><span class="soft">Les notes de cours</span></a>'
     echo '</nav></main></body></html>'
 } >"$out/index.html"
 {

@@ -31,18 +31,18 @@ local words = ({
     differenceAlt = 'Where the two differ, in false colours; the largest difference is %s.',
     copy = 'Copy', copied = 'Copied', output = 'prints', line = 'line', contents = 'On this page', chapters = 'Chapters',
     previous = 'Previous', next = 'Next', skip = 'Skip to the text', dark = 'Dark', notes = 'The notes',
-    languages = 'Language', chapter = 'Chapter', runs = 'Run', from = 'from', to = 'to',
+    languages = 'Language', colon = ': ', chapter = 'Chapter', runs = 'Run', from = 'from', to = 'to',
     footer = 'Made by make notes: every picture and every number on this page came from the commands beside it. It needs no network.',
   },
   fr = {
-    exercise = 'Exercice', answer = 'Réponse', difference = 'Différence', command = 'Pour comparer soi-même',
+    exercise = 'Exercice', answer = 'Réponse', difference = 'Différence', command = 'Comparez vous-même',
     largest = 'Plus grande différence', flip = 'FLIP', rmse = 'RMSE', identical = 'Pixels identiques',
     agree = 'dans les limites de la scène', differ = 'hors des limites de la scène', slider = 'Curseur entre %s et %s',
-    differenceAlt = 'Là où les deux diffèrent, en fausses couleurs ; la plus grande différence est %s.',
+    differenceAlt = 'Là où les deux diffèrent, en fausses couleurs\u{202F}; la plus grande différence est %s.',
     copy = 'Copier', copied = 'Copié', output = 'affiche', line = 'ligne', contents = 'Sur cette page', chapters = 'Chapitres',
-    previous = 'Précédent', next = 'Suivant', skip = 'Aller au texte', dark = 'Sombre', notes = 'Le cours',
-    languages = 'Langue', chapter = 'Chapitre', runs = 'Commandes', from = 'de', to = 'à',
-    footer = 'Fait par make notes : chaque image et chaque nombre de cette page vient des commandes placées à côté. Elle n’a pas besoin du réseau.',
+    previous = 'Précédent', next = 'Suivant', skip = 'Aller au texte', dark = 'Sombre', notes = 'Les notes de cours',
+    languages = 'Langue', colon = '\u{A0}: ', chapter = 'Chapitre', runs = 'Commandes', from = 'de', to = 'à',
+    footer = 'Page faite par make notes\u{A0}: chacune de ses images et chacun de ses nombres viennent des commandes placées à côté. Elle n’a pas besoin du réseau.',
   },
 })[language]
 
@@ -413,8 +413,8 @@ local function slider(first, second, firstLabel, secondLabel, difference, alt, f
   local side = '<div class="side %s">%s<span class="label">%s</span></div>'
   return table.concat {
     '<div class="pictures"><div class="wiper"><div class="stage">',
-    side:format('first', pictureTag(first, firstLabel .. ': ' .. alt), escape(firstLabel)),
-    side:format('second', pictureTag(second, secondLabel .. ': ' .. alt), escape(secondLabel)),
+    side:format('first', pictureTag(first, firstLabel .. words.colon .. alt), escape(firstLabel)),
+    side:format('second', pictureTag(second, secondLabel .. words.colon .. alt), escape(secondLabel)),
     '</div>',
     ('<label class="slide js-only"><span class="hidden">%s</span><input type="range" min="0" max="100" value="50"></label></div>')
       :format(escape(words.slider:format(firstLabel, secondLabel))),
