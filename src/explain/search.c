@@ -26,7 +26,7 @@ static const double MARGIN = 0.97;
 static const double PAIR_SHARE = 0.6;
 
 /* What is left must be less than this share of what there was, for the cause to be named. */
-static const double EXPLAINED_SHARE = 0.3;
+static const double EXPLAINED_SHARE = 0.2;
 
 typedef struct Search {
     const Truth *truth;
