@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 enum {
-    CHUNK = 256 /* pixels a task */
+    CHUNK = 32 /* pixels a task: few, since each may take hundreds of rays */
 };
 
 Truth truthOfPicture(const Image *picture)
