@@ -250,6 +250,8 @@ Status predictPixels(const Truth *truth, const Evidence *evidence, const ViewCha
 {
     if (truth->scene != NULL)
         return predictFromScene(truth, evidence, view, light, acne, prediction);
+    if (cancelRequested())
+        return statusInterrupted();
     Status status = createPrediction(evidence->count, 1, prediction);
     if (!statusIsOk(&status))
         return status;
