@@ -494,7 +494,7 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
         return;
     double before = plainBefore(full), left = measureCandidate(full, chosen, before);
     bool isRounding = left <= 2 * floorError && findings->before >= 6 * floorError;
-    if (left > EXPLAINED_SHARE * findings->before && !isRounding)
+    if (left >= EXPLAINED_SHARE * findings->before && !isRounding)
         return;
     for (int i = 0; i < chosen->count; i++) {
         Candidate part = *chosen;
