@@ -83,7 +83,8 @@ static void tellScale(const Trait *trait, double number, const Scene *scene, Tex
     (void)scene;
     textAppend(text, trait->choice == 0 ? "all light is " : "all stored samples are ");
     appendRounded(text, number, 4);
-    textAppend(text, " times as much as it should be");
+    textAppend(text,
+               trait->choice == 0 ? " times as much as it should be" : " times as high as they should be");
 }
 
 static void applyOffset(const Trait *trait, double number, Hypothesis *hypothesis)
@@ -577,13 +578,18 @@ static bool hasHighlights(const Object *objects, size_t count)
     return false;
 }
 
-/* The first different exponents of the highlights. */
-static size_t listShininesses(const Scene *scene, float *found, size_t most)
+/* Collect the first different exponents of the highlights, those of CSG objects' parts too; count is how many
+ * there are already. */
+static size_t listShininesses(const Object *objects, size_t objectCount, float *found, size_t count,
+                              size_t most)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < scene->objectCount && count < most; i++) {
-        const Material *material = &scene->objects[i].material;
-        bool isKnown = scene->objects[i].kind == SHAPE_CSG || colorIsBlack(material->specular);
+    for (size_t i = 0; i < objectCount && count < most; i++) {
+        const Material *material = &objects[i].material;
+        if (objects[i].kind == SHAPE_CSG) {
+            count = listShininesses(objects[i].csg.parts, objects[i].csg.partCount, found, count, most);
+            continue;
+        }
+        bool isKnown = colorIsBlack(material->specular);
         for (size_t j = 0; j < count; j++)
             isKnown |= found[j] == material->shininess;
         if (!isKnown)
@@ -625,7 +631,7 @@ static void addHighlightTraits(const Scene *scene, Traits *traits)
                        .formula = PHONG,
                        .key = "shininess"};
     float groups[6];
-    size_t count = listShininesses(scene, groups, 6);
+    size_t count = listShininesses(scene->objects, scene->objectCount, groups, 0, 6);
     for (size_t i = 0; i < count; i++) {
         Trait one = shininess;
         one.grid = SHININESSES;

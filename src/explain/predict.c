@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 enum {
-    CHUNK = 256 /* pixels a task */
+    CHUNK = 32 /* pixels a task: few, since each may take hundreds of rays */
 };
 
 Truth truthOfPicture(const Image *picture)
@@ -254,6 +254,8 @@ Status predictPixels(const Truth *truth, const Evidence *evidence, const ViewCha
 {
     if (truth->scene != NULL)
         return predictFromScene(truth, evidence, view, light, acne, prediction);
+    if (cancelRequested())
+        return statusInterrupted();
     Status status = createPrediction(evidence->count, 1, prediction);
     if (!statusIsOk(&status))
         return status;
