@@ -84,6 +84,9 @@ const LightStory *choosePlane(const PixelStory *story, double far, DrawingPlane 
     plane->right = cross(plane->up, normal);
     if (dot(plane->right, a) < 0)
         plane->right = multVector(plane->right, -1);
+    /* Where the camera's up is not seen, look down, not up. */
+    if (norm(up) <= 0.25 && dot(cross(plane->right, plane->up), cameraUp) < 0)
+        plane->up = multVector(plane->up, -1);
     plane->origin = end;
 
     /* Hold the camera, the point, lights that are not too far, and what the ray meets. */

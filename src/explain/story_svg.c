@@ -163,6 +163,12 @@ static bool drawCut(Drawing *drawing, const Object *object, DrawnPoint box[2])
     return kind != CUT_NOTHING;
 }
 
+/* A speck gets no name: among others nobody could tell whose it is. */
+static bool isLargeEnough(const DrawnPoint box[2])
+{
+    return fmax(box[1].x - box[0].x, box[1].y - box[0].y) >= 18;
+}
+
 static void labelObject(Drawing *drawing, const Object *object, const DrawnPoint box[2])
 {
     Text name = {0};
@@ -553,7 +559,7 @@ void writeStorySvg(const PixelStory *story, const char *name, Text *text)
         askForLabel(&drawing.board, end, "P", INK, false, true);
     }
     for (size_t i = 0; i < drawing.objectCount; i++)
-        if (drawn[i])
+        if (drawn[i] && (i == 0 || isLargeEnough(boxes[i])))
             labelObject(&drawing, drawing.objects[i], boxes[i]);
     textAppend(text, "</g>\n<g class=\"labels\">\n");
     placeLabels(&drawing.board, text);

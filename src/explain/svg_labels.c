@@ -52,6 +52,8 @@ static void placeLabel(LabelBoard *board, const Label *label, Text *text)
     bool found = false;
     for (int pass = 0; pass < 2 && !found; pass++) {
         for (size_t d = label->isCentred ? 0 : 1; d < sizeof distances / sizeof *distances && !found; d++) {
+            if (!label->mustBeThere && distances[d] > 30)
+                break; /* farther off nobody would know what it belongs to */
             for (int way = 0; way < 8 && !found; way++) {
                 double dx = d > 0 ? ways[way][0] : 0, dy = d > 0 ? ways[way][1] : 0;
                 double centerX = label->at.x + dx * distances[d] +
