@@ -41,7 +41,7 @@ void freeTruth(Truth *truth)
 
 /* What a sample at the top may stand for: what was clamped, up to a stop of light. More would let a picture
  * with much of it be anything. */
-static const float BRIGHTEST = 2;
+static const float BRIGHTEST = 1.25f;
 
 /* The range of linear colours that a sample may stand for: half a step of its rounding to both sides, and at
  * the top what was clamped. */
