@@ -267,8 +267,10 @@ static void listPossibleTraits(const Scene *scene, const Image *wrong, const Loo
     listTraits(scene, (StoredFormat){wrong->bitDepth, wrong->encoding}, traits);
     if (!hasSpecks(look))
         dropTraits(traits, CAUSE_ACNE);
-    if (isTwoValued(wrong))
+    if (isTwoValued(wrong)) {
         dropTraits(traits, CAUSE_QUANTISATION);
+        dropTraits(traits, CAUSE_EXPOSURE);
+    }
 }
 
 /* ---- Two pictures ---- */
