@@ -412,6 +412,10 @@ static void forCourseScenes(void (*check)(Scene *scene, const char *path))
 
 static void checkNeutralChange(Scene *scene, const char *path)
 {
+    /* With light of its own too, so that the order of the sum is seen. */
+    scene->render.ambient = createColor(0.1f, 0.2f, 0.3f);
+    for (size_t i = 0; i < scene->objectCount; i++)
+        scene->objects[i].material.ambient = createColor(0.7f, 0.9f, 0.3f);
     CompiledScene *compiled;
     Status status = compileScene(scene, 2, &compiled);
     assert_true(statusIsOk(&status));
