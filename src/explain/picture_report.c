@@ -17,8 +17,8 @@
 static const char *const CAUSE_WORDS[CAUSE_COUNT] = {
     "another gamma curve",
     "another exposure",
-    "left and right exchanged",
-    "top and bottom exchanged",
+    "left and right swapped",
+    "top and bottom swapped",
     "red, green and blue in another order",
     "a shift",
     "another aspect or angle of view",
