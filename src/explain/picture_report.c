@@ -103,7 +103,7 @@ static void writePictures(ExplainPage *page, const PictureReport *report)
     writeMarkup(page, "<p class=\"soft\">");
     writeBreakableName(page, report->rightName);
     fprintf(page->output.stream,
-            " has %d bits a sample, %s; it is shown, and the difference measured, as mine is "
+            " has %d bits a sample, %s; here it is shown, and held against mine, as mine is "
             "stored: in %d bits, %s.</p>\n",
             report->right->bitDepth, encodingWords(report->right), report->mine->bitDepth,
             encodingWords(report->mine));
