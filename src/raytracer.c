@@ -66,7 +66,7 @@ SurfacePoint surfacePointAt(const Ray *ray, const Object *object, const Hit *hit
  *
  * A scene that gives a shadow bias gets the textbook's remedy instead, for comparison: start on the
  * surface, and count only what is farther than the bias. With 0 the acne is back. */
-static Vector3D offsetStart(const SurfacePoint *point, Vector3D direction)
+Vector3D offsetStart(const SurfacePoint *point, Vector3D direction)
 {
     double step = copysign(point->offset, dot(point->flatNormal, direction));
     return addVectors(point->position, multVector(point->flatNormal, step));
@@ -222,8 +222,7 @@ Color3f lightReturned(const SurfaceFinder *finder, const SurfacePoint *point, co
     return addColors(addColors(own, diffuse), multColors(material->specular, highlight));
 }
 
-/* Go through the surface: the media behind it, and the ratio of the two indices of refraction. */
-static double crossSurface(const Media *media, const Object *object, double ior, Media *behind)
+double crossSurface(const Media *media, const Object *object, double ior, Media *behind)
 {
     *behind = *media;
     int last = media->count - 1;

@@ -227,6 +227,10 @@ typedef struct SurfacePoint {
 /* The point where the ray meets the object in this hit. */
 SurfacePoint surfacePointAt(const Ray *ray, const Object *object, const Hit *hit);
 
+/* Where a ray that leaves the point in this direction starts: off the surface, to the side that it leaves to.
+ */
+Vector3D offsetStart(const SurfacePoint *point, Vector3D direction);
+
 /* The transparent objects that a ray is in, the one entered last at the end. */
 enum {
     MAX_MEDIA = 64
@@ -242,6 +246,12 @@ Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vect
 /* The numbers of the scene's transparent objects in rising order, which the caller frees; NULL where there
  * are none, and with *failed set when memory runs out. */
 uint32_t *findTransparentObjects(const Scene *scene, size_t *count, bool *failed);
+
+/* Go through the surface of a transparent object: behind gets the media on its other side, and the result is
+ * the ratio n1 / n2 of the index before the surface to the one behind it. An object that is not among the
+ * media is entered; one that is, is left, and where others were entered after it the ratio is 1. With
+ * MAX_MEDIA already, the one entered is not noted. ior: of the object's material at this point. */
+double crossSurface(const Media *media, const Object *object, double ior, Media *behind);
 
 /* The way from a surface to a light: what blocks lies at above < t < farthest. */
 typedef struct ShadowRay {

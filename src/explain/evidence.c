@@ -1,6 +1,8 @@
 /* evidence.c - see evidence.h. */
 #include "explain/evidence.h"
 
+#include "base/cancel.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,6 +50,8 @@ static bool isTaken(Stratum *stratum)
 
 Status gatherEvidence(const Image *wrong, const Image *right, size_t mostPixels, Evidence *evidence)
 {
+    if (cancelRequested())
+        return statusInterrupted();
     size_t total = (size_t)wrong->width * (size_t)wrong->height;
     Stratum strata[2] = {{0}, {0}};
     for (size_t i = 0; i < total; i++)

@@ -27,7 +27,7 @@ typedef struct Evidence {
 } Evidence;
 
 /* Choose at most mostPixels pixels of the wrong picture. Both have the same width and height. STATUS_IO when
- * memory runs out; then evidence is untouched. Freed with freeEvidence. */
+ * memory runs out, STATUS_INTERRUPTED when cancelled; then evidence is untouched. Freed with freeEvidence. */
 Status gatherEvidence(const Image *wrong, const Image *right, size_t mostPixels, Evidence *evidence);
 void freeEvidence(Evidence *evidence);
 

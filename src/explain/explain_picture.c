@@ -126,6 +126,12 @@ static bool hasSpecks(const Look *look)
     return look->specks > 20 && (double)look->specks > SPECK_SHARE * (double)look->pixels;
 }
 
+/* Whether the difference is dark specks, which nothing else makes than acne. */
+static bool isSpeckled(const Look *look)
+{
+    return hasSpecks(look) && look->darker > 20 * look->brighter && look->differing < look->pixels / 10 * 9;
+}
+
 /* ---- What is told ---- */
 
 static void appendShare(Text *text, size_t part, size_t whole)
@@ -228,6 +234,44 @@ static void tellAgreement(const Look *look, Text *summary)
                      look->differing, look->pixels);
 }
 
+/* ---- Which mistakes are looked for ---- */
+
+static void dropTraits(Traits *traits, Cause cause)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < traits->count; i++)
+        if (traits->items[i].cause != cause)
+            traits->items[kept++] = traits->items[i];
+    traits->count = kept;
+}
+
+/* Whether the picture has only two values, as a drawing without shading has: few levels explain that always.
+ */
+static bool isTwoValued(const Image *image)
+{
+    size_t count = 3 * (size_t)image->width * (size_t)image->height;
+    uint16_t first = image->samples[0], second = first;
+    for (size_t i = 1; i < count; i++) {
+        if (image->samples[i] == first || image->samples[i] == second)
+            continue;
+        if (second != first)
+            return false;
+        second = image->samples[i];
+    }
+    return true;
+}
+
+/* Leave out what would explain too much: acne where there are no specks, since with it any lamp may be
+ * blocked anywhere, and few levels where there is nothing between two values. */
+static void listPossibleTraits(const Scene *scene, const Image *wrong, const Look *look, Traits *traits)
+{
+    listTraits(scene, (StoredFormat){wrong->bitDepth, wrong->encoding}, traits);
+    if (!hasSpecks(look))
+        dropTraits(traits, CAUSE_ACNE);
+    if (isTwoValued(wrong))
+        dropTraits(traits, CAUSE_QUANTISATION);
+}
+
 /* ---- Two pictures ---- */
 
 static Status checkSizes(const Image *a, const char *aName, const Image *b, const char *bName)
@@ -240,10 +284,11 @@ static Status checkSizes(const Image *a, const char *aName, const Image *b, cons
 }
 
 /* Search with one of two pictures as the right one. */
-static Status searchFrom(const Image *wrong, const Image *right, Traits *traits, Findings *findings)
+static Status searchFrom(const Image *wrong, const Image *right, const Look *look, Traits *traits,
+                         Findings *findings)
 {
     Truth truth = truthOfPicture(right);
-    listTraits(NULL, (StoredFormat){wrong->bitDepth, wrong->encoding}, traits);
+    listPossibleTraits(NULL, wrong, look, traits);
     return searchCauses(&truth, wrong, right, traits, findings);
 }
 
@@ -275,16 +320,13 @@ static Status explainDifference(const Image *mine, const Image *reference, const
     if (traits == NULL)
         return statusOutOfMemory();
     Findings from, back = {0};
-    Status status = searchFrom(mine, reference, &traits[0], &from);
+    Status status = searchFrom(mine, reference, look, &traits[0], &from);
     if (statusIsOk(&status) && shareLeft(&from) > 0.01)
-        status = searchFrom(reference, mine, &traits[1], &back);
+        status = searchFrom(reference, mine, look, &traits[1], &back);
 
-    /* Specks have no formula here, but nothing else makes them. */
-    bool isAcne =
-        hasSpecks(look) && look->darker > 20 * look->brighter && look->differing < look->pixels / 10 * 9;
     if (!statusIsOk(&status))
         ;
-    else if (isAcne && shareLeft(&from) > 0.05)
+    else if (isSpeckled(look) && shareLeft(&from) > 0.05)
         tellAcne(0, causes);
     else if (from.count > 0 && (back.count == 0 || shareLeft(&from) <= 2 * shareLeft(&back)))
         tellFindings(&from, NULL, NULL, NULL, causes);
@@ -336,17 +378,6 @@ static Status drawRight(const CompiledScene *compiled, const Image *like, int th
     return status;
 }
 
-/* Leave acne out where there are no specks: with it, any lamp may be blocked anywhere, which explains too
- * much. */
-static void dropAcne(Traits *traits)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < traits->count; i++)
-        if (traits->items[i].cause != CAUSE_ACNE)
-            traits->items[kept++] = traits->items[i];
-    traits->count = kept;
-}
-
 static Status explainFromScene(const Image *picture, const Image *right, const CompiledScene *compiled,
                                const Scene *scene, const SceneSource *source, int threads, const Look *look,
                                Explanations *causes)
@@ -360,14 +391,14 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
         free(traits);
         return status;
     }
-    listTraits(scene, (StoredFormat){picture->bitDepth, picture->encoding}, traits);
-    if (!hasSpecks(look))
-        dropAcne(traits);
+    listPossibleTraits(scene, picture, look, traits);
     Findings findings;
     status = searchCauses(&truth, picture, right, traits, &findings);
     if (statusIsOk(&status)) {
         if (findings.count > 0)
             tellFindings(&findings, scene, source, NULL, causes);
+        else if (isSpeckled(look))
+            tellAcne(0, causes);
         else
             tellUnknown(look, true, causes);
     }

@@ -19,6 +19,7 @@ static const double FACTORS[] = {1 / 32., 1 / 16., 1 / 8., 1 / 5., 1 / 3., 0.5, 
 static const double POWERS[] = {0.3, 0.45, 0.6, 0.75, 0.9, 1.1, 1.35, 1.7, 2.2, 3};
 static const double OFFSETS[] = {-0.5, -0.2, -0.1, -0.05, -0.02, -0.005, 0.005, 0.02, 0.05, 0.1, 0.2, 0.5};
 static const double LEVELS[] = {4, 5, 6, 7, 8, 10, 16, 32, 64, 128, 256};
+static const double DROPPED_BITS[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
 static const double STRETCHES[] = {0.45, 0.5,   0.5625, 0.625,  0.6875, 0.75, 0.8,    0.875, 0.95,
                                    1.05, 1.125, 1.25,   1.3333, 1.5,    1.6,  1.7778, 2,     2.2};
 static const double EXPONENTS[] = {0, 0.5, 1, 1.5, 2.5, 3, 4};
@@ -82,7 +83,8 @@ static void tellScale(const Trait *trait, double number, const Scene *scene, Tex
     (void)scene;
     textAppend(text, trait->choice == 0 ? "all light is " : "all stored samples are ");
     appendRounded(text, number, 4);
-    textAppend(text, " times as much as it should be");
+    textAppend(text,
+               trait->choice == 0 ? " times as much as it should be" : " times as high as they should be");
 }
 
 static void applyOffset(const Trait *trait, double number, Hypothesis *hypothesis)
@@ -100,6 +102,21 @@ static void tellOffset(const Trait *trait, double number, const Scene *scene, Te
     textAppend(text, trait->choice == OFFSET_EVERYWHERE    ? "everywhere, the background included"
                      : trait->choice == OFFSET_ON_SURFACES ? "on all surfaces, whatever their colour"
                                                            : "on all surfaces, times their diffuse colour");
+}
+
+static void applyStoredOffset(const Trait *trait, double number, Hypothesis *hypothesis)
+{
+    hypothesis->value.storedOffset = (float)number;
+    hypothesis->value.storedOnSurfaces = trait->choice != 0;
+}
+
+static void tellStoredOffset(const Trait *trait, double number, const Scene *scene, Text *text)
+{
+    (void)scene;
+    appendRounded(text, fabs(number), 3);
+    textAppend(text, number > 0 ? " is added to the stored samples " : " is taken from the stored samples ");
+    textAppend(text, trait->choice == 0 ? "everywhere, as if all were lit a little"
+                                        : "of all surfaces, as by an ambient light after the encoding");
 }
 
 static void applyChannels(const Trait *trait, double number, Hypothesis *hypothesis)
@@ -134,6 +151,20 @@ static void tellLevels(const Trait *trait, double number, const Scene *scene, Te
                      (trait->choice & 2) != 0 ? ", and are cut off instead of rounded" : "");
     if (number == 256)
         textAppend(text, " (8 bits)");
+}
+
+static void applyDroppedBits(const Trait *trait, double number, Hypothesis *hypothesis)
+{
+    (void)trait;
+    hypothesis->value.droppedBits = (int)number;
+}
+
+static void tellDroppedBits(const Trait *trait, double number, const Scene *scene, Text *text)
+{
+    (void)trait;
+    (void)scene;
+    textAppendFormat(text, "the lowest %d bits of the samples are 0: they were cut off and not rounded",
+                     (int)number);
 }
 
 /* ---- Views ---- */
@@ -466,6 +497,24 @@ static void addValueTraits(const Scene *scene, StoredFormat file, Traits *traits
                                      .tell = tellOffset,
                                      .formula = "color = ambient * render.ambient + emission + ...",
                                      .key = "ambient"});
+    for (int choice = 0; choice < 2; choice++)
+        addTrait(traits, (Trait){.cause = CAUSE_AMBIENT,
+                                 .part = TRAIT_VALUE,
+                                 .apply = applyStoredOffset,
+                                 GRID(OFFSETS),
+                                 .choice = choice,
+                                 .tell = tellStoredOffset,
+                                 .formula = "color = ambient * render.ambient + emission + ...",
+                                 .key = "ambient"});
+    addTrait(traits, (Trait){.cause = CAUSE_QUANTISATION,
+                             .part = TRAIT_VALUE,
+                             .apply = applyDroppedBits,
+                             .grid = DROPPED_BITS,
+                             .gridCount = file.bitDepth == 16 ? 14 : 6,
+                             .isWhole = true,
+                             .tell = tellDroppedBits,
+                             .formula = "sample = floor(v * (2^bits - 1) + 1/2)",
+                             .key = "bit_depth"});
     for (int choice = 0; choice < 4; choice++) {
         bool ofFile = choice == (file.encoding == ENCODING_LINEAR ? 1 : 0) && file.bitDepth == 8;
         addTrait(traits, (Trait){.cause = CAUSE_QUANTISATION,
@@ -529,13 +578,18 @@ static bool hasHighlights(const Object *objects, size_t count)
     return false;
 }
 
-/* The first different exponents of the highlights. */
-static size_t listShininesses(const Scene *scene, float *found, size_t most)
+/* Collect the first different exponents of the highlights, those of CSG objects' parts too; count is how many
+ * there are already. */
+static size_t listShininesses(const Object *objects, size_t objectCount, float *found, size_t count,
+                              size_t most)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < scene->objectCount && count < most; i++) {
-        const Material *material = &scene->objects[i].material;
-        bool isKnown = scene->objects[i].kind == SHAPE_CSG || colorIsBlack(material->specular);
+    for (size_t i = 0; i < objectCount && count < most; i++) {
+        const Material *material = &objects[i].material;
+        if (objects[i].kind == SHAPE_CSG) {
+            count = listShininesses(objects[i].csg.parts, objects[i].csg.partCount, found, count, most);
+            continue;
+        }
+        bool isKnown = colorIsBlack(material->specular);
         for (size_t j = 0; j < count; j++)
             isKnown |= found[j] == material->shininess;
         if (!isKnown)
@@ -577,7 +631,7 @@ static void addHighlightTraits(const Scene *scene, Traits *traits)
                        .formula = PHONG,
                        .key = "shininess"};
     float groups[6];
-    size_t count = listShininesses(scene, groups, 6);
+    size_t count = listShininesses(scene->objects, scene->objectCount, groups, 0, 6);
     for (size_t i = 0; i < count; i++) {
         Trait one = shininess;
         one.grid = SHININESSES;

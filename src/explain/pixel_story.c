@@ -246,39 +246,10 @@ static void freeRay(RayStory *story)
 
 static RayStory *tellRay(Telling *telling, RayRole role, Ray ray, const Media *media, int depth);
 
-/* As offsetStart: where a ray leaves the surface. */
-static Vector3D leaveSurface(const SurfacePoint *point, Vector3D direction)
-{
-    double step = copysign(point->offset, dot(point->flatNormal, direction));
-    return addVectors(point->position, multVector(point->flatNormal, step));
-}
-
-/* As crossSurface: the media behind the surface, and the ratio of the two indices. */
-static double crossInto(const Media *media, const Object *object, double ior, Media *behind)
-{
-    *behind = *media;
-    int last = media->count - 1;
-    int found = last;
-    while (found >= 0 && media->objects[found] != object)
-        found--;
-    if (found < 0) {
-        double outside = last >= 0 ? (double)media->objects[last]->material.ior : 1;
-        if (behind->count < MAX_MEDIA)
-            behind->objects[behind->count++] = object;
-        return outside / ior;
-    }
-    for (int i = found; i < last; i++)
-        behind->objects[i] = media->objects[i + 1];
-    behind->count = last;
-    if (found < last)
-        return 1;
-    return ior / (last > 0 ? (double)media->objects[last - 1]->material.ior : 1);
-}
-
 static RayStory *tellMirrored(Telling *telling, const RayStory *story, RayRole role)
 {
     Vector3D direction = normalize(reflect(story->ray.direction, story->point.normal));
-    Ray mirrored = createRay(leaveSurface(&story->point, direction), direction);
+    Ray mirrored = createRay(offsetStart(&story->point, direction), direction);
     return tellRay(telling, role, mirrored, &story->media, story->depth + 1);
 }
 
@@ -290,7 +261,7 @@ static Color3f tellSecondaryRays(Telling *telling, RayStory *story, Color3f colo
     story->isTransparent = !colorIsBlack(material->transmission);
     if (story->isTransparent) {
         Media behind;
-        double r = crossInto(&story->media, point->object, (double)material->ior, &behind);
+        double r = crossSurface(&story->media, point->object, (double)material->ior, &behind);
         double c = -dot(point->normal, story->ray.direction);
         story->ratio = r;
         story->cosine = c;
@@ -302,7 +273,7 @@ static Color3f tellSecondaryRays(Telling *telling, RayStory *story, Color3f colo
         Vector3D direction = addVectors(multVector(story->ray.direction, r),
                                         multVector(point->normal, r * c - sqrt(story->k)));
         direction = r == 1 ? story->ray.direction : normalize(direction);
-        Ray refracted = createRay(leaveSurface(point, direction), direction);
+        Ray refracted = createRay(offsetStart(point, direction), direction);
         story->refracted = tellRay(telling, RAY_REFRACTED, refracted, &behind, story->depth + 1);
         if (story->refracted != NULL)
             color = addColors(color, multColors(story->refracted->color, material->transmission));

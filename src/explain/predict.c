@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 enum {
-    CHUNK = 256 /* pixels a task */
+    CHUNK = 32 /* pixels a task: few, since each may take hundreds of rays */
 };
 
 Truth truthOfPicture(const Image *picture)
@@ -39,8 +39,12 @@ void freeTruth(Truth *truth)
 
 /* ---- From a picture ---- */
 
+/* What a sample at the top may stand for: what was clamped, up to a stop of light. More would let a picture
+ * with much of it be anything. */
+static const float BRIGHTEST = 1.25f;
+
 /* The range of linear colours that a sample may stand for: half a step of its rounding to both sides, and at
- * the top all that was clamped. */
+ * the top what was clamped. */
 static void sampleRange(const Image *image, size_t sample, float *low, float *middle, float *high)
 {
     float highest = (float)imageMaxSample(image), v = (float)image->samples[sample];
@@ -50,7 +54,7 @@ static void sampleRange(const Image *image, size_t sample, float *low, float *mi
             ends[i] = srgbToLinear(ends[i]);
     *low = ends[0];
     *middle = ends[1];
-    *high = v >= highest ? INFINITY : ends[2];
+    *high = v >= highest ? BRIGHTEST : ends[2];
 }
 
 /* What lies at a point between four pixels: where they are alike, their mean; at an edge anything between. */
@@ -250,6 +254,8 @@ Status predictPixels(const Truth *truth, const Evidence *evidence, const ViewCha
 {
     if (truth->scene != NULL)
         return predictFromScene(truth, evidence, view, light, acne, prediction);
+    if (cancelRequested())
+        return statusInterrupted();
     Status status = createPrediction(evidence->count, 1, prediction);
     if (!statusIsOk(&status))
         return status;

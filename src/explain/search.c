@@ -1,6 +1,8 @@
 /* search.c - see search.h. */
 #include "explain/search.h"
 
+#include "base/cancel.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,13 +28,14 @@ static const double MARGIN = 0.97;
 static const double PAIR_SHARE = 0.6;
 
 /* What is left must be less than this share of what there was, for the cause to be named. */
-static const double EXPLAINED_SHARE = 0.3;
+static const double EXPLAINED_SHARE = 0.2;
 
 typedef struct Search {
     const Truth *truth;
     const Traits *traits;
     const Evidence *evidence;
     Prediction right; /* the neutral hypothesis */
+    bool isPlain;     /* the wrong picture has one colour, which nearly any values and views could give */
     Status status;    /* the first failure */
 } Search;
 
@@ -108,6 +111,10 @@ static double tryNumber(const NumberFit *fit, double number, size_t step)
     Hypothesis hypothesis = hypothesisOf(fit->candidate);
     Prediction made;
     const Prediction *prediction = fit->prediction;
+    if (cancelRequested())
+        fit->search->status = statusInterrupted();
+    if (!statusIsOk(&fit->search->status))
+        return INFINITY;
     if (prediction == NULL) {
         if (!predictFor(fit->search, &hypothesis, false, &made))
             return INFINITY;
@@ -343,6 +350,25 @@ static Status beginSearch(Search *search, const Truth *truth, const Traits *trai
     return predictPixels(truth, evidence, &view, &light, false, &search->right);
 }
 
+static bool isOneColor(const Image *image)
+{
+    size_t count = 3 * (size_t)image->width * (size_t)image->height;
+    return memcmp(image->samples, image->samples + 3, (count - 3) * sizeof *image->samples) == 0;
+}
+
+/* How many times as many rays as the simplest scenes' the pixels have, roughly. */
+static size_t costOf(const Truth *truth)
+{
+    if (truth->scene == NULL)
+        return 1;
+    const Scene *scene = truth->scene;
+    size_t samples = (size_t)scene->render.samples, lamps = 0;
+    for (size_t i = 0; i < scene->lightCount; i++)
+        lamps += (size_t)lightSampleCount(&scene->lights[i]);
+    size_t ofLights = scene->lightCount > 0 ? lamps / scene->lightCount : 1;
+    return samples * samples * ofLights * (truth->transparentCount > 0 ? 4 : 1);
+}
+
 /* What rounding alone may leave. */
 static double roundingFloor(const Truth *truth, const Evidence *evidence)
 {
@@ -397,7 +423,8 @@ static Candidate findBestSingle(Search *search, double *singles, double *numbers
         const Trait *trait = &search->traits->items[i];
         Candidate single = {.traits = {trait}, .count = 1};
         single.numbers[0] = trait->grid != NULL ? trait->grid[0] : 0;
-        singles[i] = changesNothing(search, &single) ? INFINITY : fitSingle(search, &single, before);
+        bool isLeftOut = (search->isPlain && trait->part != TRAIT_LIGHT) || changesNothing(search, &single);
+        singles[i] = isLeftOut ? INFINITY : fitSingle(search, &single, before);
         numbers[i] = single.numbers[0];
         if (!isinf(singles[i]) && single.rmse < best.rmse * MARGIN - 0.2 * floorError * (best.count > 0))
             best = single;
@@ -476,7 +503,7 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
         return;
     double before = plainBefore(full), left = measureCandidate(full, chosen, before);
     bool isRounding = left <= 2 * floorError && findings->before >= 6 * floorError;
-    if (left > EXPLAINED_SHARE * findings->before && !isRounding)
+    if (left >= EXPLAINED_SHARE * findings->before && !isRounding)
         return;
     for (int i = 0; i < chosen->count; i++) {
         Candidate part = *chosen;
@@ -495,8 +522,7 @@ Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, 
 {
     *findings = (Findings){0};
     /* Fewer pixels where each has many rays. */
-    int n = truth->scene != NULL ? truth->scene->render.samples : 1;
-    size_t share = (size_t)(n * n);
+    size_t share = costOf(truth);
     const size_t most[3] = {ROUGH_PIXELS / share + 200, FINE_PIXELS / share + 400,
                             FULL_PIXELS / share + 2000};
     Evidence evidence[3] = {{.count = 0}, {.count = 0}, {.count = 0}};
@@ -506,6 +532,7 @@ Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, 
         status = gatherEvidence(wrong, right, most[i], &evidence[i]);
         if (statusIsOk(&status))
             status = beginSearch(&searches[i], truth, traits, &evidence[i]);
+        searches[i].isPlain = isOneColor(wrong);
     }
     if (statusIsOk(&status)) {
         double singles[MAX_TRAITS], floorError = roundingFloor(truth, &evidence[1]);

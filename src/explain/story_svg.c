@@ -3,9 +3,11 @@
  * The drawing's plane holds the camera's ray and the light that matters most. Objects are drawn as the plane
  * cuts them, all else as its projection onto the plane: a vector that leaves the plane is drawn shorter.
  */
-#include "compare/rounding.h"
 #include "explain/cut_outline.h"
+#include "explain/side_view.h"
 #include "explain/story_writers.h"
+#include "explain/svg_labels.h"
+#include "explain/svg_pieces.h"
 
 #include <string.h>
 
@@ -18,7 +20,6 @@ enum {
     VIEW_HEIGHT = 540,
     VECTOR_LENGTH = 84, /* of a unit vector in the plane */
     MOST_OBJECTS = 24,
-    MOST_BOXES = 600,
     MOST_RAYS_DRAWN = 40,
     MOST_SHADOW_RAYS = 12
 };
@@ -32,277 +33,24 @@ enum {
 #define VIEW_COLOR "#6d28d9"
 #define HIGHLIGHT_COLOR "#be185d"
 #define INK "#1f2328"
-
-/* A rectangle that a label must not cover. */
-typedef struct LabelBox {
-    double x, y, width, height;
-} LabelBox;
+#define DARK_STROKE "stroke=\"#6e7781\" stroke-width=\"1.4\" stroke-dasharray=\"1.5 5\""
 
 typedef struct Drawing {
     const PixelStory *story;
     Text *text;
-    Text labels; /* drawn last, above everything */
     DrawingPlane plane;
     const LightStory *light; /* the one in the plane, or NULL */
     const Object *objects[MOST_OBJECTS];
     size_t objectCount;
-    LabelBox labelBoxes[MOST_BOXES], lineBoxes[MOST_BOXES];
-    int labelCount, lineCount;
+    LabelBoard board; /* its labels are drawn last, above everything */
     int raysDrawn;
-    bool hasMirrored, hasRefracted, hasBlocked, hasReaching, hasOmitted;
+    bool hasMirrored, hasRefracted, hasBlocked, hasReaching, hasDark, hasOmitted;
 } Drawing;
-
-/* ---- Pieces of SVG ---- */
-
-/* Append text with what XML keeps for itself escaped, and what it cannot hold replaced. */
-static void appendEscaped(Text *text, const char *words)
-{
-    for (const char *c = words; *c != '\0';) {
-        size_t length = utf8Length(c);
-        if (length == 0 || (length == 1 && (unsigned char)*c < 0x20) || *c == 0x7F) {
-            textAppend(text, "?");
-            length = 1;
-        } else if (length == 3 && memcmp(c, "\xEF\xBF", 2) == 0 && (unsigned char)c[2] >= 0xBE) {
-            textAppend(text, "?"); /* U+FFFE and U+FFFF */
-        } else if (*c == '&') {
-            textAppend(text, "&amp;");
-        } else if (*c == '<') {
-            textAppend(text, "&lt;");
-        } else if (*c == '>') {
-            textAppend(text, "&gt;");
-        } else if (*c == '"') {
-            textAppend(text, "&quot;");
-        } else {
-            textAppendBytes(text, c, length);
-        }
-        c += length;
-    }
-}
-
-static void appendRounded(Text *text, double value)
-{
-    char buffer[NUMBER_TEXT_SIZE];
-    textAppend(text, formatRounded(buffer, value == 0 ? 0 : value, 4));
-}
-
-static void appendAttribute(Text *text, const char *name, double value)
-{
-    textAppendFormat(text, " %s=\"", name);
-    appendPixels(text, value);
-    textAppend(text, "\"");
-}
 
 static void drawLine(Drawing *drawing, DrawnPoint a, DrawnPoint b, const char *attributes)
 {
-    Text *text = drawing->text;
-    textAppend(text, "<line");
-    appendAttribute(text, "x1", a.x);
-    appendAttribute(text, "y1", a.y);
-    appendAttribute(text, "x2", b.x);
-    appendAttribute(text, "y2", b.y);
-    textAppendFormat(text, " %s/>\n", attributes);
-    /* Let labels keep off it. */
-    double length = hypot(b.x - a.x, b.y - a.y);
-    int steps = length < 1000 ? (int)(length / 12) + 1 : 84;
-    for (int i = 0; i <= steps && drawing->lineCount < MOST_BOXES; i++)
-        drawing->lineBoxes[drawing->lineCount++] =
-            (LabelBox){a.x + (b.x - a.x) * i / steps - 3, a.y + (b.y - a.y) * i / steps - 3, 6, 6};
-}
-
-static void drawCircle(Text *text, DrawnPoint at, double radius, const char *attributes)
-{
-    textAppend(text, "<circle");
-    appendAttribute(text, "cx", at.x);
-    appendAttribute(text, "cy", at.y);
-    appendAttribute(text, "r", radius);
-    textAppendFormat(text, " %s/>\n", attributes);
-}
-
-static bool overlaps(const LabelBox *a, const LabelBox *boxes, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (a->x < boxes[i].x + boxes[i].width && boxes[i].x < a->x + a->width &&
-            a->y < boxes[i].y + boxes[i].height && boxes[i].y < a->y + a->height)
-            return true;
-    return false;
-}
-
-static size_t countCharacters(const char *words)
-{
-    size_t count = 0;
-    for (; *words != '\0'; words++)
-        count += ((unsigned char)*words & 0xC0) != 0x80;
-    return count;
-}
-
-/* Put a label near a point: the first place where it covers neither label nor line, else no label. Where
- * there is none it is left out rather than put over another, unless it must be there. */
-static void putLabel(Drawing *drawing, DrawnPoint at, const char *words, const char *color, bool isCentred,
-                     bool mustBeThere)
-{
-    static const double ways[8][2] = {{0.7, -0.7}, {-0.7, -0.7}, {0.7, 0.7}, {-0.7, 0.7},
-                                      {0, -1},     {0, 1},       {1, 0},     {-1, 0}};
-    static const double distances[] = {0, 12, 20, 30, 44, 62, 84};
-    double width = 7.3 * (double)countCharacters(words) + 4, height = 16;
-    LabelBox best = {0};
-    bool found = false;
-    for (int pass = 0; pass < 2 && !found; pass++) {
-        for (size_t d = isCentred ? 0 : 1; d < sizeof distances / sizeof *distances && !found; d++) {
-            for (int way = 0; way < 8 && !found; way++) {
-                double dx = d > 0 ? ways[way][0] : 0, dy = d > 0 ? ways[way][1] : 0;
-                double centerX = at.x + dx * distances[d] +
-                                 (dx > 0.1    ? width / 2
-                                  : dx < -0.1 ? -width / 2
-                                              : 0);
-                double centerY = at.y + dy * distances[d];
-                LabelBox box = {centerX - width / 2, centerY - height / 2, width, height};
-                if (box.x < LEFT + 2 || box.x + width > LEFT + VIEW_WIDTH - 2 || box.y < TOP + 2 ||
-                    box.y + height > TOP + VIEW_HEIGHT - 2)
-                    continue;
-                found = !overlaps(&box, drawing->labelBoxes, drawing->labelCount) &&
-                        (pass == 1 || !overlaps(&box, drawing->lineBoxes, drawing->lineCount));
-                best = box;
-            }
-        }
-    }
-    if (!found && !(mustBeThere && best.width > 0))
-        return;
-    if (drawing->labelCount < MOST_BOXES)
-        drawing->labelBoxes[drawing->labelCount++] = best;
-    Text *text = &drawing->labels;
-    textAppend(text, "<text");
-    appendAttribute(text, "x", best.x + best.width / 2);
-    appendAttribute(text, "y", best.y + 12.5);
-    textAppendFormat(text, " fill=\"%s\">", color);
-    appendEscaped(text, words);
-    textAppend(text, "</text>\n");
-}
-
-static void reserve(Drawing *drawing, DrawnPoint at, double radius)
-{
-    if (drawing->labelCount < MOST_BOXES)
-        drawing->labelBoxes[drawing->labelCount++] =
-            (LabelBox){at.x - radius, at.y - radius, 2 * radius, 2 * radius};
-}
-
-/* ---- The plane ---- */
-
-static Vector3D withoutPart(Vector3D v, Vector3D along)
-{
-    return subVectors(v, multVector(along, dot(v, along)));
-}
-
-/* The light whose direction the plane holds: one that reaches the point, else one that is blocked, else any.
- */
-static const LightStory *chooseLight(const RayStory *ray)
-{
-    static const LightFate order[] = {LIGHT_REACHES, LIGHT_BLOCKED, LIGHT_DARK, LIGHT_BEHIND};
-    for (size_t f = 0; f < sizeof order / sizeof *order; f++) {
-        size_t first = ray->lightCount, last = 0;
-        for (size_t i = 0; i < ray->lightCount; i++) {
-            if (ray->lights[i].fate != order[f] ||
-                (first < ray->lightCount && ray->lights[i].light != ray->lights[first].light))
-                continue;
-            first = first == ray->lightCount ? i : first;
-            last = i;
-        }
-        /* Of an area's, one in the middle of those. */
-        if (first < ray->lightCount)
-            for (size_t i = (first + last) / 2; i < ray->lightCount; i++)
-                if (ray->lights[i].fate == order[f])
-                    return &ray->lights[i];
-    }
-    return NULL;
-}
-
-static Vector3D endOfCameraRay(const RayStory *ray, double far)
-{
-    return ray->end == RAY_MEETS_SURFACE ? ray->point.position : pointOnRay(&ray->ray, far);
-}
-
-/* A length that fits the scene, for a ray that meets nothing. */
-static double sceneLength(const PixelStory *story)
-{
-    double length = 0;
-    for (size_t i = 0; i < story->scene->objectCount && i < 1000; i++) {
-        Bounds bounds;
-        if (objectBounds(&story->scene->objects[i], &bounds)) {
-            Vector3D middle = multVector(addVectors(bounds.min, bounds.max), 0.5);
-            length = fmax(length, fmin(norm(subVectors(middle, story->ray->ray.origin)), 1e6));
-        }
-    }
-    return length > 0 ? length : 5;
-}
-
-static void includePoint(DrawnPoint range[2], Vector3D origin, const DrawingPlane *plane, Vector3D p)
-{
-    Vector3D d = subVectors(p, origin);
-    double x = dot(d, plane->right), y = dot(d, plane->up);
-    range[0] = (DrawnPoint){fmin(range[0].x, x), fmin(range[0].y, y)};
-    range[1] = (DrawnPoint){fmax(range[1].x, x), fmax(range[1].y, y)};
-}
-
-static void choosePlane(Drawing *drawing, double far)
-{
-    const RayStory *ray = drawing->story->ray;
-    const Scene *scene = drawing->story->scene;
-    Vector3D a = ray->ray.direction, end = endOfCameraRay(ray, far);
-    Vector3D cameraUp = normalize(scene->camera.up);
-    bool hasPoint = ray->end == RAY_MEETS_SURFACE;
-    drawing->light = hasPoint && !ray->isUnlit ? chooseLight(ray) : NULL;
-
-    /* The second direction: to the light, or the normal, or the camera's up. */
-    Vector3D b =
-        drawing->light != NULL ? withoutPart(drawing->light->arriving.direction, a) : createVector(0, 0, 0);
-    if (norm(b) < 1e-3 && hasPoint)
-        b = withoutPart(ray->point.normal, a);
-    if (norm(b) < 1e-3)
-        b = withoutPart(cameraUp, a);
-    if (norm(b) < 1e-3)
-        b = withoutPart(fabs(a.x) < 0.9 ? createVector(1, 0, 0) : createVector(0, 1, 0), a);
-    b = normalize(b);
-    Vector3D normal = normalize(cross(a, b));
-
-    /* Up in the drawing is the camera's up, where that can be seen; the camera looks to the right. */
-    DrawingPlane *plane = &drawing->plane;
-    Vector3D up = withoutPart(cameraUp, normal);
-    plane->normal = normal;
-    plane->up = norm(up) > 0.25 ? normalize(up) : b;
-    plane->right = cross(plane->up, normal);
-    if (dot(plane->right, a) < 0)
-        plane->right = multVector(plane->right, -1);
-    plane->origin = end;
-
-    /* Hold the camera, the point, lights that are not too far, and what the ray meets. */
-    DrawnPoint range[2] = {{0, 0}, {0, 0}};
-    double size = fmax(norm(subVectors(end, ray->ray.origin)), 1e-9);
-    includePoint(range, end, plane, ray->ray.origin);
-    for (size_t i = 0; i < ray->lightCount && !ray->isUnlit; i++) {
-        const ArrivingLight *arriving = &ray->lights[i].arriving;
-        bool isMain = &ray->lights[i] == drawing->light;
-        if (isfinite(arriving->distance) && arriving->distance < (isMain ? 4 : 1.5) * size)
-            includePoint(range, end, plane, arriving->position);
-    }
-    Bounds bounds;
-    if (hasPoint && objectBounds(ray->point.object, &bounds) &&
-        norm(subVectors(bounds.max, bounds.min)) < 1.6 * size) {
-        Vector3D middle = multVector(addVectors(bounds.min, bounds.max), 0.5);
-        Vector3D half = multVector(subVectors(bounds.max, bounds.min), 0.5);
-        double radius = fmax(half.x, fmax(half.y, half.z));
-        const Vector3D ways[4] = {plane->right, multVector(plane->right, -1), plane->up,
-                                  multVector(plane->up, -1)};
-        for (int i = 0; i < 4; i++)
-            includePoint(range, end, plane, addVectors(middle, multVector(ways[i], radius)));
-    }
-    const double margin = 74;
-    double spanX = fmax(range[1].x - range[0].x, 1e-9), spanY = fmax(range[1].y - range[0].y, 1e-9);
-    plane->left = LEFT;
-    plane->top = TOP;
-    plane->width = VIEW_WIDTH;
-    plane->height = VIEW_HEIGHT;
-    plane->scale = fmin((VIEW_WIDTH - 2 * margin) / spanX, (VIEW_HEIGHT - 2 * margin) / spanY);
-    plane->originX = LEFT + VIEW_WIDTH / 2.0 - (range[0].x + range[1].x) / 2 * plane->scale;
-    plane->originY = TOP + VIEW_HEIGHT / 2.0 + (range[0].y + range[1].y) / 2 * plane->scale;
+    appendLine(drawing->text, a, b, attributes);
+    keepOffLine(&drawing->board, a, b);
 }
 
 /* The part of the line from a towards b that is seen, a being inside. */
@@ -385,9 +133,9 @@ static bool drawSphere(Drawing *drawing, const Object *object, DrawnPoint box[2]
     textAppend(drawing->text, "<g fill=\"");
     appendFill(drawing->text, object);
     textAppend(drawing->text, "\">");
-    drawCircle(drawing->text, at, drawn,
-               isCut ? "fill-opacity=\"0.22\" stroke=\"#57606a\" stroke-width=\"1.5\""
-                     : "fill-opacity=\"0.05\" stroke=\"#8c959f\" stroke-dasharray=\"2 4\"");
+    appendCircle(drawing->text, at, drawn,
+                 isCut ? "fill-opacity=\"0.22\" stroke=\"#57606a\" stroke-width=\"1.5\""
+                       : "fill-opacity=\"0.05\" stroke=\"#8c959f\" stroke-dasharray=\"2 4\"");
     textAppend(drawing->text, "</g>\n");
     return true;
 }
@@ -415,6 +163,12 @@ static bool drawCut(Drawing *drawing, const Object *object, DrawnPoint box[2])
     return kind != CUT_NOTHING;
 }
 
+/* A speck gets no name: among others nobody could tell whose it is. */
+static bool isLargeEnough(const DrawnPoint box[2])
+{
+    return fmax(box[1].x - box[0].x, box[1].y - box[0].y) >= 18;
+}
+
 static void labelObject(Drawing *drawing, const Object *object, const DrawnPoint box[2])
 {
     Text name = {0};
@@ -424,7 +178,7 @@ static void labelObject(Drawing *drawing, const Object *object, const DrawnPoint
     double left = fmax(box[0].x, LEFT), right = fmin(box[1].x, LEFT + VIEW_WIDTH);
     double top = fmax(box[0].y, TOP), bottom = fmin(box[1].y, TOP + VIEW_HEIGHT);
     DrawnPoint at = {(left + right) / 2, (top + bottom) / 2};
-    putLabel(drawing, at, textString(&name), "#57606a", true, false);
+    askForLabel(&drawing->board, at, textString(&name), "#57606a", true, false);
     drawing->text->failed = drawing->text->failed || name.failed;
     textFree(&name);
 }
@@ -445,7 +199,7 @@ static void drawArrow(Drawing *drawing, DrawnPoint from, Vector3D v, const char 
     double length = hypot(to.x - from.x, to.y - from.y);
     if (length > 1)
         to = (DrawnPoint){to.x + (to.x - from.x) / length * 12, to.y + (to.y - from.y) / length * 12};
-    putLabel(drawing, to, name, color, true, true);
+    askForLabel(&drawing->board, to, name, color, true, true);
 }
 
 static void drawVectors(Drawing *drawing)
@@ -473,19 +227,19 @@ static void drawSun(Drawing *drawing, DrawnPoint at, const Light *lamp, size_t n
             DrawnPoint to = {at.x + 14 * cos(angle), at.y + 14 * sin(angle)};
             drawLine(drawing, from, to, "stroke=\"" LIGHT_COLOR "\" stroke-width=\"2\"");
         }
-        drawCircle(drawing->text, at, 6.5,
-                   "fill=\"#facc15\" stroke=\"" LIGHT_COLOR "\" stroke-width=\"1.5\"");
-        reserve(drawing, at, 14);
+        appendCircle(drawing->text, at, 6.5,
+                     "fill=\"#facc15\" stroke=\"" LIGHT_COLOR "\" stroke-width=\"1.5\"");
+        keepOffMark(&drawing->board, at, 14);
     }
     Text name = {0};
     textAppendFormat(&name, "light %zu, %s", number + 1, lightKindName(lamp));
     if (isOutside && isfinite(distance)) {
         textAppend(&name, ", at distance ");
-        appendRounded(&name, distance);
+        appendShortNumber(&name, distance);
     } else if (isOutside) {
         textAppend(&name, ", from infinitely far");
     }
-    putLabel(drawing, at, textString(&name), LIGHT_COLOR, false, true);
+    askForLabel(&drawing->board, at, textString(&name), LIGHT_COLOR, false, true);
     textFree(&name);
 }
 
@@ -508,17 +262,18 @@ static void drawShadowRay(Drawing *drawing, DrawnPoint p, const LightStory *ligh
         drawLine(drawing, (DrawnPoint){at.x - 6, at.y + 6}, (DrawnPoint){at.x + 6, at.y - 6},
                  "stroke=\"" BLOCKED_COLOR "\" stroke-width=\"3\"");
         if (light == drawing->light) {
-            reserve(drawing, at, 6);
+            keepOffMark(&drawing->board, at, 6);
             Text name = {0};
             textAppend(&name, "blocked here");
             if (light->blocker->line > 0)
                 textAppendFormat(&name, " by line %d", light->blocker->line);
-            putLabel(drawing, at, textString(&name), BLOCKED_COLOR, false, true);
+            askForLabel(&drawing->board, at, textString(&name), BLOCKED_COLOR, false, true);
             textFree(&name);
         }
         return;
     }
-    drawLine(drawing, p, end, "stroke=\"#8c959f\" stroke-width=\"1\" stroke-dasharray=\"1 5\"");
+    drawing->hasDark = true;
+    drawLine(drawing, p, end, DARK_STROKE);
 }
 
 static void drawLights(Drawing *drawing)
@@ -553,7 +308,7 @@ static void drawLights(Drawing *drawing)
         end = clipped(p, end, 20);
         drawShadowRay(drawing, p, light, end);
         if (lamp->kind == LIGHT_AREA && !isOutside)
-            drawCircle(drawing->text, end, 3, "fill=\"#facc15\" stroke=\"" LIGHT_COLOR "\"");
+            appendCircle(drawing->text, end, 3, "fill=\"#facc15\" stroke=\"" LIGHT_COLOR "\"");
         if (lamp->kind != LIGHT_AREA || isMain)
             drawSun(drawing, end, lamp, light->light, light->arriving.distance, isOutside);
     }
@@ -582,8 +337,8 @@ static void drawRays(Drawing *drawing, const RayStory *ray)
                  isRefracted ? "stroke=\"" REFRACTED_COLOR "\" stroke-width=\"2\""
                              : "stroke=\"" MIRROR_COLOR "\" stroke-width=\"2\"");
         if (ray->end == RAY_MEETS_SURFACE)
-            drawCircle(drawing->text, to, 3,
-                       isRefracted ? "fill=\"" REFRACTED_COLOR "\"" : "fill=\"" MIRROR_COLOR "\"");
+            appendCircle(drawing->text, to, 3,
+                         isRefracted ? "fill=\"" REFRACTED_COLOR "\"" : "fill=\"" MIRROR_COLOR "\"");
     }
     drawRays(drawing, ray->refracted);
     drawRays(drawing, ray->mirrored);
@@ -612,21 +367,12 @@ static void drawCamera(Drawing *drawing, DrawnPoint at)
         appendPixels(text, at.y + corners[i][0] * y + corners[i][1] * x);
         textAppend(text, i < 2 ? "L" : "Z\"/>\n");
     }
-    drawCircle(text, at, 5, "fill=\"" INK "\"");
-    reserve(drawing, at, 12);
-    putLabel(drawing, at, "camera", INK, false, true);
+    appendCircle(text, at, 5, "fill=\"" INK "\"");
+    keepOffMark(&drawing->board, at, 12);
+    askForLabel(&drawing->board, at, "camera", INK, false, true);
 }
 
 /* ---- The page ---- */
-
-static void appendMarker(Text *text, const char *name, const char *color)
-{
-    textAppendFormat(text,
-                     "<marker id=\"%s\" viewBox=\"0 0 10 10\" refX=\"8\" refY=\"5\" markerWidth=\"5\" "
-                     "markerHeight=\"5\" orient=\"auto-start-reverse\"><path d=\"M0 0L10 5L0 10z\" "
-                     "fill=\"%s\"/></marker>\n",
-                     name, color);
-}
 
 /* One entry of the legend. */
 static void legendEntry(Drawing *drawing, double *x, double *y, const char *stroke, const char *words)
@@ -664,6 +410,8 @@ static void drawLegend(Drawing *drawing)
         legendEntry(drawing, &x, &y,
                     "stroke=\"" BLOCKED_COLOR "\" stroke-width=\"1.8\" stroke-dasharray=\"7 5\"",
                     "way to a light, blocked at the cross");
+    if (drawing->hasDark)
+        legendEntry(drawing, &x, &y, DARK_STROKE, "way to a light that adds nothing");
     if (drawing->hasMirrored)
         legendEntry(drawing, &x, &y, "stroke=\"" MIRROR_COLOR "\" stroke-width=\"2\"", "mirrored ray");
     if (drawing->hasRefracted)
@@ -702,7 +450,7 @@ static void appendDescription(Drawing *drawing)
         textAppend(&words, "meets ");
         appendObjectName(story->scene, ray->point.object, ray->point.hit.object, &words);
         textAppend(&words, " at distance ");
-        appendRounded(&words, ray->point.hit.distance);
+        appendShortNumber(&words, ray->point.hit.distance);
         textAppend(&words, ".");
     } else {
         textAppend(&words, "meets nothing.");
@@ -740,7 +488,8 @@ static void beginPage(Drawing *drawing, const char *name)
                      "<title id=\"title\">Pixel (%d, %d) of ",
                      WIDTH, HEIGHT, WIDTH, HEIGHT, drawing->story->x, drawing->story->y);
     appendEscaped(text, name);
-    textAppend(text, ", seen from the side</title>\n<desc id=\"desc\">");
+    const char *view = viewOfPlane(&drawing->plane, drawing->story->scene->camera.up);
+    textAppendFormat(text, ", seen %s</title>\n<desc id=\"desc\">", view);
     appendDescription(drawing);
     textAppendFormat(text,
                      "</desc>\n"
@@ -765,17 +514,20 @@ static void beginPage(Drawing *drawing, const char *name)
     if (drawing->light != NULL)
         textAppendFormat(text, " and light %zu", drawing->light->light + 1);
     textAppendFormat(text,
-                     ", seen from the side</text>\n<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" "
+                     ", seen %s</text>\n<rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" "
                      "fill=\"#ffffff\" stroke=\"#d0d7de\"/>\n",
-                     LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT);
+                     view, LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT);
 }
 
 void writeStorySvg(const PixelStory *story, const char *name, Text *text)
 {
-    Drawing drawing = {.story = story, .text = text};
+    Drawing drawing = {.story = story,
+                       .text = text,
+                       .plane = {.left = LEFT, .top = TOP, .width = VIEW_WIDTH, .height = VIEW_HEIGHT},
+                       .board = {.view = {LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT}}};
     const RayStory *ray = story->ray;
     double far = sceneLength(story);
-    choosePlane(&drawing, far);
+    drawing.light = choosePlane(story, far, &drawing.plane);
     beginPage(&drawing, name);
     textAppend(text, "<g clip-path=\"url(#view)\">\n");
 
@@ -800,20 +552,18 @@ void writeStorySvg(const PixelStory *story, const char *name, Text *text)
     drawRays(&drawing, ray);
     drawCamera(&drawing, camera);
     if (ray->end == RAY_MEETS_SURFACE) {
-        reserve(&drawing, end, 6);
+        keepOffMark(&drawing.board, end, 6);
         drawLights(&drawing);
         drawVectors(&drawing);
-        drawCircle(text, end, 4.5, "fill=\"" INK "\"");
-        putLabel(&drawing, end, "P", INK, false, true);
+        appendCircle(text, end, 4.5, "fill=\"" INK "\"");
+        askForLabel(&drawing.board, end, "P", INK, false, true);
     }
     for (size_t i = 0; i < drawing.objectCount; i++)
-        if (drawn[i])
+        if (drawn[i] && (i == 0 || isLargeEnough(boxes[i])))
             labelObject(&drawing, drawing.objects[i], boxes[i]);
     textAppend(text, "</g>\n<g class=\"labels\">\n");
-    textAppend(text, textString(&drawing.labels));
+    placeLabels(&drawing.board, text);
     textAppend(text, "</g>\n");
-    text->failed = text->failed || drawing.labels.failed;
-    textFree(&drawing.labels);
     drawLegend(&drawing);
     textAppend(text, "</svg>\n");
 }

@@ -58,10 +58,16 @@ void storedSamples(const ValueChange *change, StoredFormat format, const ValuePl
             v = srgbToLinear(v);
         if (change->storedPower != 1)
             v = powf(v, change->storedPower);
-        samples[i] = clampSample(v * change->storedScale);
+        float offset = change->storedOnSurfaces && !place->isSurface ? 0 : change->storedOffset;
+        samples[i] = clampSample(v * change->storedScale + offset);
         if (change->levels > 1 && !change->levelsLinear)
             samples[i] = toLevel(samples[i], (float)(change->levels - 1), change->truncated);
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
         stored[i] = toLevel(samples[change->channels[i]], fileHighest, false);
+        if (change->droppedBits > 0) {
+            unsigned mask = ~0u << change->droppedBits;
+            stored[i] = (float)((unsigned)(stored[i] * fileHighest + 0.5f) & mask) / fileHighest;
+        }
+    }
 }

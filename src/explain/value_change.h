@@ -36,12 +36,15 @@ typedef struct ValueChange {
     OffsetPlace offsetPlace;
     float linearPower; /* exponent of linear light; 1 */
     EncodingMistake encoding;
-    float storedPower; /* exponent of the stored sample; 1 */
-    float storedScale; /* of the stored sample; 1 */
-    int channels[3];   /* channel i of the picture is channel channels[i] */
-    int levels;        /* of a stored sample; 0: those of the file */
-    bool levelsLinear; /* the levels are of linear light */
-    bool truncated;    /* to the level below and not to the nearest */
+    float storedPower;     /* exponent of the stored sample; 1 */
+    float storedScale;     /* of the stored sample; 1 */
+    float storedOffset;    /* added to the stored sample; 0 */
+    bool storedOnSurfaces; /* but not where the background is seen */
+    int channels[3];       /* channel i of the picture is channel channels[i] */
+    int levels;            /* of a stored sample; 0: those of the file */
+    bool levelsLinear;     /* the levels are of linear light */
+    bool truncated;        /* to the level below and not to the nearest */
+    int droppedBits;       /* the lowest bits of a stored sample that are 0 */
 } ValueChange;
 
 /* The change that changes nothing. */

@@ -70,6 +70,64 @@ END
     json '.povray.linear == null and .povray.error.code == 5'
 }
 
+@test "a scene that POV-Ray cannot be given: the story is told, and says why there is no value" {
+    needs povray
+    makeTwoLights s.yaml
+    echo 'render: {model: simple}' >>s.yaml
+    try 7 pov s.yaml -o s.pov
+    try 0 why s.yaml 1 1
+    hasText "$out" "no value: the simple model with several lights (here 2) cannot be exported"
+    hasText "$out" "use one light, or shadows: false"
+    try 0 why --json s.yaml 1 1
+    json '.povray.linear == null and .povray.error.code == 7 and (.ours.linear | length) == 3'
+    nothingTemporary
+}
+
+@test "the drawing says from where it is seen, and what a dotted way is" {
+    # The first light is beside the camera's ray, so the plane lies flat.
+    cat >s.yaml <<'END'
+image: {width: 3, height: 3}
+camera: {position: [0, 0, 5]}
+lights:
+  - point: {position: [9, 0, 0], color: 10}
+  - point: {position: [0, 0, -90], color: 10}
+objects:
+  - sphere: {center: [0, 0, 0], radius: 1}
+END
+    withoutPovray why s.yaml 1 1 --svg s.svg
+    hasText s.svg "seen from above"
+    hasText s.svg "way to a light that adds nothing"
+    makeTwoLights t.yaml
+    withoutPovray why t.yaml 1 1 --svg t.svg
+    hasText t.svg "seen from the side</title>"
+    ! grep -q "way to a light that adds nothing" t.svg
+}
+
+@test "huge numbers, the widest picture and the most samples" {
+    cat >s.yaml <<'END'
+image: {width: 65535, height: 9}
+camera: {position: [1.0e+12, 0, 0]}
+lights:
+  - point: {position: [1.0e+12, 4.0e+9, 0], color: 1.0e+20}
+objects:
+  - sphere: {center: [1.0e+12, 0, -5.0e+10], radius: 1.0e+10}
+END
+    for x in 0 32767 65534; do
+        withoutPovray why s.yaml $x 4 --svg s.svg
+        ! grep -q -w -i -e nan -e inf s.svg "$out"
+    done
+    withoutPovray why s.yaml 32767 4 --samples 64
+    hasText "$out" "It is the mean of 4096 samples"
+}
+
+@test "a drawing or a story that cannot be written is an error" {
+    makeTwoLights s.yaml
+    try 4 why s.yaml 1 1 --svg /dev/full
+    hasText "$err" "cannot write '/dev/full'"
+    PATH=$BATS_TEST_TMPDIR "$ECLAIRAGE" why s.yaml 1 1 >&- 2>"$err" && false
+    hasText "$err" "cannot write standard output"
+}
+
 @test "JSON names every number" {
     makeTwoLights s.yaml
     withoutPovray why --json s.yaml 1 1
