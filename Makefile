@@ -142,7 +142,7 @@ $(BUILD)/obj/src/engine/bvh_build.o: OPTIMIZE = $(LANE_OPTIMIZE)
 
 # The report's page is assembled into this object, which the compiler's list of dependencies does not say.
 $(BUILD)/obj/compare/report_template.o: $(wildcard compare/report*.html compare/report*.css compare/report*.js)
-$(BUILD)/obj/src/explain/habit_report.o: $(wildcard src/explain/habit_report.css src/explain/habit_report.js)
+$(BUILD)/obj/src/explain/explain_page.o: $(wildcard src/explain/explain_page.css src/explain/explain_page.js)
 
 $(BUILD)/tests/%: tests/unit/%.c $(UNIT_OBJECTS) $(BUILD)/libeclairage.a
 	$(call say,TEST,$@)

@@ -72,6 +72,7 @@ const Command COMMANDS[] = {
      "eclairage explain scene.yaml\tPOV-Ray's habits, one by one\n"
      "eclairage explain scene.yaml --out why\twith a page, why/index.html\n"
      "eclairage explain scene.yaml mine.png\twhat is wrong with mine?\n"
+     "eclairage explain scene.yaml mine.png --out why\tthe same as a page\n"
      "eclairage explain mine.png reference.png\tthe same, without the scene\n",
      "With a picture: finds the mistake, or the two, that turn the right picture into it "
      "(gamma, exposure, mirrored, no shadows, another falloff or highlight, acne, ...), and "
@@ -84,8 +85,9 @@ const Command COMMANDS[] = {
      "after another, the largest first. Each comes with the line of POV-Ray to write "
      "instead. In the matched form, which `pov` writes, nothing is left.\n"
      "\n"
-     "With --out, DIR gets index.html, a page that needs nothing else, results.json, the "
-     "pictures, their differences and the .pov of each; without it no file is written. "
+     "With --out, in all three ways, DIR gets index.html, a page that needs nothing else, "
+     "and results.json, what --json prints; with a scene alone also the pictures, their "
+     "differences and the .pov of each. Without it no file is written. "
      "Differences are root mean square errors of the samples: with a scene alone 16-bit "
      "linear ones, else those of the picture. The exit code is 0 when all is told, whatever "
      "was found.",

@@ -1,10 +1,13 @@
 /* explain_picture_file.c - `eclairage explain A.png B.png` and `explain SCENE.yaml PICTURE.png`; see
  * explain_ways.h. */
 #include "base/files.h"
+#include "cli/compare_job.h"
 #include "cli/explain_ways.h"
 #include "cli/scene_input.h"
+#include "cli/shell_words.h"
 #include "cli/terminal.h"
 #include "explain/explain_picture.h"
+#include "explain/picture_report.h"
 #include "image/image.h"
 
 #include <stdlib.h>
@@ -14,16 +17,86 @@ enum {
     LONGEST_SCENE_TEXT = 1 << 24 /* bytes that are searched for the line to look at */
 };
 
-/* Print what was found; returns the exit code. */
-static int tell(const Arguments *arguments, const PictureExplanation *explanation)
+/* ---- The report ---- */
+
+/* The files of the report, none of which may be what it is made from. */
+static const char *const REPORT_FILES[] = {"index.html", "results.json"};
+
+/* See that no file of the report is written over the scene or a picture. */
+static Status protectInputs(const Arguments *arguments)
 {
-    Text text = {0};
-    if (arguments->json)
-        writeExplanationsJson(&explanation->causes, &text);
-    else
-        writeExplanationsText(&explanation->causes, textString(&explanation->summary), &text);
-    return printData(&text);
+    for (size_t i = 0; i < sizeof REPORT_FILES / sizeof *REPORT_FILES; i++) {
+        Text path = pathInFolder(arguments->folder, REPORT_FILES[i]);
+        for (size_t k = 0; k < arguments->operandCount; k++) {
+            const char *input = arguments->operands[k];
+            if (isSameFile(textString(&path), input)) {
+                textFree(&path);
+                return statusError(STATUS_USAGE,
+                                   "the report would overwrite %s itself: choose another folder with --out",
+                                   displayName(input));
+            }
+        }
+        textFree(&path);
+    }
+    return statusOk();
 }
+
+/* Make the folder of the report where one is wanted, when all that it needs was read. */
+static Status prepareFolder(const Arguments *arguments)
+{
+    return arguments->folder != NULL ? makeFolders(arguments->folder) : statusOk();
+}
+
+static Status writeReport(const Arguments *arguments, const PictureExplanation *explanation,
+                          const Image *mine, const Image *right, const Text *json)
+{
+    Text command = {0};
+    appendShellLine(&command, arguments->argc, arguments->argv);
+    bool isDrawn = !isPictureName(arguments->operands[0]);
+    PictureReport report = {.explanation = explanation,
+                            .mine = mine,
+                            .right = right,
+                            .name = displayName(arguments->operands[isDrawn]),
+                            .rightName = displayName(arguments->operands[!isDrawn]),
+                            .isDrawn = isDrawn,
+                            .command = textString(&command),
+                            .threads = chosenThreads(arguments)};
+    Status status = command.failed ? statusOutOfMemory() : writePictureReport(arguments->folder, &report);
+    textFree(&command);
+    if (!statusIsOk(&status))
+        return status;
+    Text path = pathInFolder(arguments->folder, "results.json");
+    status = path.failed || json->failed ? statusOutOfMemory()
+                                         : writeWholeFile(path.data, textString(json), json->length);
+    textFree(&path);
+    return status;
+}
+
+/* Write the report where one is wanted and print what was found; returns the exit code. */
+static int tell(const Arguments *arguments, const PictureExplanation *explanation, const Image *mine,
+                const Image *right)
+{
+    Text json = {0}, words = {0};
+    writeExplanationsJson(&explanation->causes, &json);
+    int written = 0;
+    if (arguments->folder != NULL) {
+        Status status = writeReport(arguments, explanation, mine, right, &json);
+        written = statusIsOk(&status) ? 0 : printError(NULL, &status);
+    }
+    if (!arguments->json)
+        writeExplanationsText(&explanation->causes, textString(&explanation->summary), &words);
+    int printed = printData(arguments->json ? &json : &words);
+    textFree(&json);
+    textFree(&words);
+    if (written == 0 && arguments->folder != NULL) {
+        Text page = pathInFolder(arguments->folder, "index.html");
+        printNote("the report is %s", textString(&page));
+        textFree(&page);
+    }
+    return written > printed ? written : printed;
+}
+
+/* ---- What is explained ---- */
 
 static Status readPicture(const char *path, Image *image)
 {
@@ -39,10 +112,6 @@ static Status refuseOptions(const Arguments *arguments, bool hasScene)
     if (arguments->width != 0 || arguments->height != 0)
         return statusError(STATUS_USAGE, "with a picture, 'explain' takes no --width and no --height: the "
                                          "picture has a size");
-    if (arguments->folder != NULL)
-        return statusError(STATUS_USAGE,
-                           "'explain' writes a report only of a scene alone: leave out --out, or "
-                           "the picture");
     if (!hasScene && (arguments->samples != 0 || arguments->model != NOT_GIVEN))
         return statusError(STATUS_USAGE,
                            "--samples and --model change how a scene is drawn, and there is none");
@@ -52,26 +121,26 @@ static Status refuseOptions(const Arguments *arguments, bool hasScene)
 static int explainTwoPictures(const Arguments *arguments)
 {
     const char *const *names = arguments->operands;
-    Image mine, reference;
+    Image mine = {0}, reference = {0};
     Status status = readPicture(names[0], &mine);
-    if (!statusIsOk(&status))
-        return printError(NULL, &status);
-    status = readPicture(names[1], &reference);
-    if (statusIsOk(&status)) {
-        PictureExplanation explanation;
+    if (statusIsOk(&status))
+        status = readPicture(names[1], &reference);
+    if (statusIsOk(&status))
+        status = prepareFolder(arguments);
+    PictureExplanation explanation;
+    if (statusIsOk(&status))
         status =
             explainPictures(&mine, displayName(names[0]), &reference, displayName(names[1]), &explanation);
-        freeImage(&reference);
-        freeImage(&mine);
-        if (statusIsOk(&status)) {
-            int code = tell(arguments, &explanation);
-            freePictureExplanation(&explanation);
-            return code;
-        }
-        return printError(NULL, &status);
+    int code;
+    if (statusIsOk(&status)) {
+        code = tell(arguments, &explanation, &mine, &reference);
+        freePictureExplanation(&explanation);
+    } else {
+        code = printError(NULL, &status);
     }
+    freeImage(&reference);
     freeImage(&mine);
-    return printError(NULL, &status);
+    return code;
 }
 
 /* Give the scene the picture's size; STATUS_MISMATCH when it has another aspect, by more than rounding. */
@@ -117,10 +186,12 @@ static int explainWithScene(const Arguments *arguments)
     PictureExplanation explanation;
     status = takeSize(&picture, pictureName, displayName(path), &scene);
     if (statusIsOk(&status))
+        status = prepareFolder(arguments);
+    if (statusIsOk(&status))
         status = explainPictureOfScene(&picture, &scene, &source, chosenThreads(arguments), &explanation);
     int code = (int)status.code;
     if (statusIsOk(&status)) {
-        code = tell(arguments, &explanation);
+        code = tell(arguments, &explanation, &picture, &explanation.right);
         freePictureExplanation(&explanation);
     } else {
         printError(NULL, &status);
@@ -139,6 +210,8 @@ int explainPictureFile(const Arguments *arguments)
         strcmp(arguments->operands[1], "-") != 0)
         status = statusError(STATUS_USAGE, "the scene comes first: eclairage explain %s %s",
                              arguments->operands[1], arguments->operands[0]);
+    if (statusIsOk(&status) && arguments->folder != NULL)
+        status = protectInputs(arguments);
     if (!statusIsOk(&status))
         return printError(NULL, &status);
     return firstIsPicture ? explainTwoPictures(arguments) : explainWithScene(arguments);

@@ -21,6 +21,7 @@ void freePictureExplanation(PictureExplanation *explanation)
 {
     freeExplanations(&explanation->causes);
     textFree(&explanation->summary);
+    freeImage(&explanation->right);
 }
 
 /* ---- A look at both pictures ---- */
@@ -415,25 +416,23 @@ Status explainPictureOfScene(const Image *picture, const Scene *scene, const Sce
     Status status = compileScene(scene, threads, &compiled);
     if (!statusIsOk(&status))
         return status;
-    Image right;
-    status = drawRight(compiled, picture, threads, &right);
+    PictureExplanation found = {0};
+    status = drawRight(compiled, picture, threads, &found.right);
     if (statusIsOk(&status)) {
-        PictureExplanation found = {0};
-        Look look = lookAt(picture, &right);
+        Look look = lookAt(picture, &found.right);
         found.causes.before = look.rmse;
         if (isCutOff(&look))
             tellCutOff(picture->bitDepth, 0, &found.causes);
         else if (isRounding(&look))
             tellAgreement(&look, &found.summary);
         else
-            status =
-                explainFromScene(picture, &right, compiled, scene, source, threads, &look, &found.causes);
-        freeImage(&right);
-        if (statusIsOk(&status))
-            *explanation = found;
-        else
-            freePictureExplanation(&found);
+            status = explainFromScene(picture, &found.right, compiled, scene, source, threads, &look,
+                                      &found.causes);
     }
+    if (statusIsOk(&status))
+        *explanation = found;
+    else
+        freePictureExplanation(&found);
     freeCompiledScene(compiled);
     return status;
 }

@@ -13,6 +13,7 @@
 typedef struct PictureExplanation {
     Explanations causes; /* none where the pictures agree */
     Text summary;        /* one sentence for a reader: that they agree, or how far apart they are */
+    Image right;         /* what the scene gives, stored as the picture is; no samples where none was drawn */
 } PictureExplanation;
 
 void freePictureExplanation(PictureExplanation *explanation);

@@ -1,4 +1,4 @@
-/* habit_report.js - the sliders between two pictures, and light or dark; without it the pictures lie side by
+/* explain_page.js - the sliders between two pictures, and light or dark; without it the pictures lie side by
  * side. */
 'use strict';
 
