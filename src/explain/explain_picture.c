@@ -262,15 +262,18 @@ static bool isTwoValued(const Image *image)
 }
 
 /* Leave out what would explain too much: acne where there are no specks, since with it any lamp may be
- * blocked anywhere, and few levels where there is nothing between two values. */
-static void listPossibleTraits(const Scene *scene, const Image *wrong, const Look *look, Traits *traits)
+ * blocked anywhere, and all that changes values where one picture has only two of them. */
+static void listPossibleTraits(const Scene *scene, const Image *wrong, const Image *right, const Look *look,
+                               Traits *traits)
 {
     listTraits(scene, (StoredFormat){wrong->bitDepth, wrong->encoding}, traits);
     if (!hasSpecks(look))
         dropTraits(traits, CAUSE_ACNE);
-    if (isTwoValued(wrong)) {
-        dropTraits(traits, CAUSE_QUANTISATION);
+    if (isTwoValued(wrong) || isTwoValued(right)) {
+        dropTraits(traits, CAUSE_GAMMA);
         dropTraits(traits, CAUSE_EXPOSURE);
+        dropTraits(traits, CAUSE_AMBIENT);
+        dropTraits(traits, CAUSE_QUANTISATION);
     }
 }
 
@@ -290,7 +293,7 @@ static Status searchFrom(const Image *wrong, const Image *right, const Look *loo
                          Findings *findings)
 {
     Truth truth = truthOfPicture(right);
-    listPossibleTraits(NULL, wrong, look, traits);
+    listPossibleTraits(NULL, wrong, right, look, traits);
     return searchCauses(&truth, wrong, right, traits, findings);
 }
 
@@ -393,7 +396,7 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
         free(traits);
         return status;
     }
-    listPossibleTraits(scene, picture, look, traits);
+    listPossibleTraits(scene, picture, right, look, traits);
     Findings findings;
     status = searchCauses(&truth, picture, right, traits, &findings);
     if (statusIsOk(&status)) {
