@@ -294,7 +294,7 @@ static double measureCandidate(Search *search, const Candidate *candidate, doubl
 static void fitPairFinely(Search *search, Candidate *pair, double before, double floorError)
 {
     int turns = pair->traits[0]->grid != NULL && pair->traits[1]->grid != NULL ? 8 : 2;
-    for (int turn = 0; turn < turns && statusIsOk(&search->status) && pair->rmse > floorError; turn++) {
+    for (int turn = 0; turn < turns && statusIsOk(&search->status) && pair->rmse > 0.1 * floorError; turn++) {
         int which = (turn + 1) % 2;
         const Trait *trait = pair->traits[which];
         if (trait->grid == NULL || trait->isWhole)
