@@ -1,6 +1,7 @@
 /* explain_picture.c - see explain_picture.h. */
 #include "explain/explain_picture.h"
 
+#include "base/cancel.h"
 #include "engine/engine.h"
 #include "explain/local_difference.h"
 #include "explain/scene_lines.h"
@@ -32,6 +33,7 @@ typedef struct Look {
     size_t below, above;      /* samples of mine that are one step below or above; more do not count */
     size_t specks;            /* of mine: darker than the pixels on both sides, where the other is not */
     size_t darker, brighter;  /* of those that differ */
+    bool isOneFormat;         /* both have the same bit depth and encoding */
     double rmse;
     int left, top, right, bottom; /* of those that differ */
 } Look;
@@ -57,6 +59,25 @@ static float storedLike(const Image *image, const Image *other, int x, int y, in
                                             : linearAt(other, x, y, c);
 }
 
+/* The linear light that a sample may stand for, with a step and a half of its rounding in all. */
+static void lightRange(const Image *image, int x, int y, int c, float *low, float *high)
+{
+    float v = sampleAt(image, x, y, c), reach = 0.75f / (float)imageMaxSample(image);
+    float from = fmaxf(v - reach, 0), to = fminf(v + reach, 1);
+    bool isCurved = image->encoding == ENCODING_SRGB;
+    *low = isCurved ? srgbToLinear(from) : from;
+    *high = isCurved ? srgbToLinear(to) : to;
+}
+
+/* Whether two samples of different encodings differ by more than rounding. */
+static bool areApart(const Image *a, const Image *b, int x, int y, int c)
+{
+    float aLow, aHigh, bLow, bHigh;
+    lightRange(a, x, y, c, &aLow, &aHigh);
+    lightRange(b, x, y, c, &bLow, &bHigh);
+    return aHigh < bLow || bHigh < aLow;
+}
+
 static float brightness(const Image *image, int x, int y)
 {
     return sampleAt(image, x, y, 0) + sampleAt(image, x, y, 1) + sampleAt(image, x, y, 2);
@@ -74,6 +95,7 @@ static bool isSpeck(const Image *image, int x, int y)
 static Look lookAt(const Image *mine, const Image *other)
 {
     Look look = {.pixels = (size_t)mine->width * (size_t)mine->height,
+                 .isOneFormat = mine->bitDepth == other->bitDepth && mine->encoding == other->encoding,
                  .left = mine->width,
                  .top = mine->height,
                  .right = -1,
@@ -81,18 +103,20 @@ static Look lookAt(const Image *mine, const Image *other)
     bool coarse = mine->bitDepth == 8 || other->bitDepth == 8;
     float step = coarse ? 1.0f / 255 : 1.0f / 65535;
     double sum = 0;
-    for (int y = 0; y < mine->height; y++) {
+    for (int y = 0; y < mine->height && !cancelRequested(); y++) {
         for (int x = 0; x < mine->width; x++) {
             float most = 0, signedSum = 0;
+            bool isApart = false;
             for (int c = 0; c < 3; c++) {
                 float d = sampleAt(mine, x, y, c) - storedLike(mine, other, x, y, c);
                 sum += (double)(d * d);
                 most = fmaxf(most, fabsf(d));
+                isApart = isApart || (mine->encoding != other->encoding && areApart(mine, other, x, y, c));
                 signedSum += d;
                 look.below += d < -0.5f * step;
                 look.above += d > 0.5f * step;
             }
-            if (most > 1.5f * step) {
+            if (mine->encoding == other->encoding ? most > 1.5f * step : isApart) {
                 look.differing++;
                 look.darker += signedSum < 0;
                 look.brighter += signedSum > 0;
@@ -118,7 +142,8 @@ static bool isRounding(const Look *look)
 /* Whether mine was cut off where the other was rounded: many samples are a step lower and none is higher. */
 static bool isCutOff(const Look *look)
 {
-    return isRounding(look) && look->below > 3 * look->pixels / 10 && look->above * 50 < look->below;
+    return look->isOneFormat && isRounding(look) && look->below > 3 * look->pixels / 10 &&
+           look->above * 50 < look->below;
 }
 
 static bool hasSpecks(const Look *look)
@@ -352,7 +377,9 @@ Status explainPictures(const Image *mine, const char *mineName, const Image *ref
     PictureExplanation found = {0};
     Look look = lookAt(mine, reference), back = lookAt(reference, mine);
     found.causes.before = look.rmse;
-    if (isRounding(&look) && mine->bitDepth != reference->bitDepth)
+    if (cancelRequested())
+        status = statusInterrupted();
+    else if (isRounding(&look) && mine->bitDepth != reference->bitDepth)
         tellDepths(mine, reference, 0, &found.causes);
     else if (isCutOff(&look) || isCutOff(&back))
         tellCutOff(mine->bitDepth, 0, &found.causes);

@@ -513,6 +513,9 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
                       .number = chosen->numbers[i],
                       .residual = i + 1 < chosen->count ? measureCandidate(full, &part, before) : left};
     }
+    /* A first cause that makes it worse only serves the second: together they fit by chance. */
+    if (findings->items[0].residual > findings->before)
+        return;
     findings->count = chosen->count;
     findings->chosen = hypothesisOf(chosen);
 }
