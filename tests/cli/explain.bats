@@ -118,7 +118,7 @@ load helpers
     hasText "$err" "bad.yaml:1:9: error:"
     try 4 explain missing.yaml
     try 2 explain
-    hasText "$err" "'explain' needs a scene: SCENE.yaml"
+    hasText "$err" "'explain' needs a scene, a scene and a picture, or two pictures"
     makeScene s.yaml
     touch file
     try 4 explain s.yaml --out file/r

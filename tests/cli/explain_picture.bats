@@ -283,13 +283,10 @@ END
     hasText "$err" "'right.png' is too many"
     for pair in 's.yaml right.png' 'right.png wrong.png'; do
         # shellcheck disable=SC2086
-        try 2 explain $pair --out folder
-        hasText "$err" "leave out --out"
-        # shellcheck disable=SC2086
         try 2 explain $pair --width 40
         hasText "$err" "takes no --width and no --height"
         # shellcheck disable=SC2086
-        try 2 explain $pair --height 40
+        try 2 explain $pair --height 40 --out folder
         isEmpty "$out"
     done
     try 2 explain right.png wrong.png --model lambert

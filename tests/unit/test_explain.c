@@ -698,6 +698,11 @@ static void checkOwnPicture(Scene *scene, const char *path)
     assert_true(statusIsOk(&status));
     assert_int_equal(explanation.causes.count, 0);
     assert_non_null(strstr(textString(&explanation.summary), "The pictures agree"));
+    /* The right picture is handed out, stored as this one is. */
+    assert_int_equal(explanation.right.bitDepth, image.bitDepth);
+    assert_int_equal(explanation.right.encoding, image.encoding);
+    size_t samples = 3 * (size_t)image.width * (size_t)image.height;
+    assert_memory_equal(explanation.right.samples, image.samples, samples * sizeof *image.samples);
     freePictureExplanation(&explanation);
     freeImage(&image);
 }
