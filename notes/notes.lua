@@ -352,7 +352,7 @@ local function valueSpan(span)
     end
   end
   if a.volatile ~= 'true' then record('value', a.json, a.get, recorded) end
-  return pandoc.RawInline('html', '<span class="value">' .. shown .. '</span>')
+  return pandoc.RawInline('html', ('<span class="value" title="%s: %s">%s</span>'):format(escape(a.json), escape(a.get), shown))
 end
 
 -- --- Pictures -----------------------------------------------------------------------------------------------

@@ -34,13 +34,14 @@ report "the scene is valid, without warnings" $(($? + $(wc -l <check.txt)))
 commands=$(cd "$root" && block sh 2 | sed 's/ *#.*//')
 build/eclairage render --quiet --width 64 ball.yaml -o one.png && cp one.png other.png
 while read -r command; do
-    if [[ $command == *compare* ]] && ! command -v povray >/dev/null; then
+    if [[ $command == *compare* || $command == *"explain ball.yaml" ]] && ! command -v povray >/dev/null; then
         count=$((count + 1))
         echo "ok $count - $command # SKIP povray is not installed"
         continue
     fi
     $command </dev/null >out.txt 2>&1
     report "$command" $?
+    cat out.txt >>said.txt
 done <<<"$commands"
 for file in ball.png ball.pov; do
     test -s $file
@@ -50,6 +51,14 @@ if command -v povray >/dev/null; then
     test -s eclairage-report/index.html
     report "eclairage-report/index.html was written" $?
 fi
+
+# What explain and why print: each line of the two samples, but for the dots.
+for first in 'difference: ' '  Light 1 of '; do
+    (cd "$root" && awk -v first="$first" '/^```/ { inside = 0 } index($0, first) == 1 { inside = 1 } inside && NF && $0 != "..."' README.md) >sample.txt
+    missing=$(grep -Fxv -f said.txt sample.txt)
+    echo "${missing:+# not said: }$missing" | grep . || true
+    report "the sample that begins with '$first' is what is said" "$([ -s sample.txt ] && [ -z "$missing" ]; echo $?)"
+done
 
 # The mistake, word for word: the third block without a language.
 (cd "$root" && awk '/^```$/ && !inside { inside = 1; text = ""; next } /^```/ && inside { inside = 0; if (text ~ /error:/) printf "%s", text; next }
