@@ -44,15 +44,15 @@ END
 }
 
 @test "options of other commands are refused by name" {
-    refused "'check' does not take --width, which is an option of render, pov, compare and explain" check \
+    refused "'check' does not take --width, which is an option of render, pov, compare, explain and why" check \
         check --width 3 s.yaml
     refused "'compare' does not take -o, which is an option of render, pov and diff; use --out DIR" compare \
         compare s.yaml -o x
     refused "'render' does not take --out, which is an option of compare and explain; use --output FILE" render \
         render s.yaml --out x
-    refused "'pov' does not take --json, which is an option of render, compare, diff, explain and check" pov \
+    refused "'pov' does not take --json, which is an option of render, compare, diff, explain, why and check" pov \
         pov --json s.yaml
-    refused "'schema' does not take --json, which is an option of render, compare, diff, explain and check" schema \
+    refused "'schema' does not take --json, which is an option of render, compare, diff, explain, why and check" schema \
         --json schema
 }
 
