@@ -35,6 +35,8 @@ typedef struct Look {
     size_t darker, brighter;  /* of those that differ */
     bool isOneFormat;         /* both have the same bit depth and encoding */
     double rmse;
+    double rmseButDarker,
+        rmseButBrighter; /* of the pixels that differ, those that are darker, or brighter, left out */
     int left, top, right, bottom; /* of those that differ */
 } Look;
 
@@ -102,14 +104,15 @@ static Look lookAt(const Image *mine, const Image *other)
                  .bottom = -1};
     bool coarse = mine->bitDepth == 8 || other->bitDepth == 8;
     float step = coarse ? 1.0f / 255 : 1.0f / 65535;
-    double sum = 0;
+    double sum = 0, darkerSum = 0, brighterSum = 0;
     for (int y = 0; y < mine->height && !cancelRequested(); y++) {
         for (int x = 0; x < mine->width; x++) {
             float most = 0, signedSum = 0;
+            double pixelSum = 0;
             bool isApart = false;
             for (int c = 0; c < 3; c++) {
                 float d = sampleAt(mine, x, y, c) - storedLike(mine, other, x, y, c);
-                sum += (double)(d * d);
+                pixelSum += (double)(d * d);
                 most = fmaxf(most, fabsf(d));
                 isApart = isApart || (mine->encoding != other->encoding && areApart(mine, other, x, y, c));
                 signedSum += d;
@@ -120,16 +123,22 @@ static Look lookAt(const Image *mine, const Image *other)
                 look.differing++;
                 look.darker += signedSum < 0;
                 look.brighter += signedSum > 0;
+                darkerSum += signedSum < 0 ? pixelSum : 0;
+                brighterSum += signedSum > 0 ? pixelSum : 0;
                 look.left = x < look.left ? x : look.left;
                 look.top = y < look.top ? y : look.top;
                 look.right = x > look.right ? x : look.right;
                 look.bottom = y > look.bottom ? y : look.bottom;
             }
+            sum += pixelSum;
             bool inside = x > 0 && y > 0 && x < mine->width - 1 && y < mine->height - 1;
             look.specks += inside && isSpeck(mine, x, y) && !isSpeck(other, x, y);
         }
     }
-    look.rmse = sqrt(sum / (3.0 * (double)look.pixels));
+    double samples = 3.0 * (double)look.pixels;
+    look.rmse = sqrt(sum / samples);
+    look.rmseButDarker = sqrt(fmax(sum - darkerSum, 0) / samples);
+    look.rmseButBrighter = sqrt(fmax(sum - brighterSum, 0) / samples);
     return look;
 }
 
@@ -339,7 +348,7 @@ static Status explainLocally(const Image *mine, const Image *reference, const Lo
     if (local.cause == CAUSE_UNKNOWN)
         tellUnknown(look, false, causes);
     else
-        tellLocal(&local, 0, causes);
+        tellLocal(&local, local.mineIsBrighter ? look->rmseButBrighter : look->rmseButDarker, causes);
     return status;
 }
 
@@ -357,7 +366,7 @@ static Status explainDifference(const Image *mine, const Image *reference, const
     if (!statusIsOk(&status))
         ;
     else if (isSpeckled(look) && shareLeft(&from) > 0.05)
-        tellAcne(0, causes);
+        tellAcne(look->rmseButDarker, causes);
     else if (from.count > 0 && (back.count == 0 || shareLeft(&from) <= 2 * shareLeft(&back)))
         tellFindings(&from, NULL, NULL, NULL, causes);
     else if (back.count > 0)
@@ -430,7 +439,7 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
         if (findings.count > 0)
             tellFindings(&findings, scene, source, NULL, causes);
         else if (isSpeckled(look))
-            tellAcne(0, causes);
+            tellAcne(look->rmseButDarker, causes);
         else
             tellUnknown(look, true, causes);
     }
