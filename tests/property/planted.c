@@ -483,7 +483,7 @@ static void plantAll(Tally *tally, const char *path, const Scene *scene, int num
             plant(tally, path, scene, &MISTAKES[m], NULL, bits, encoding);
     for (int m = 0; m < MISTAKE_COUNT; m++) {
         int other = (m + 5 + 7 * number) % MISTAKE_COUNT;
-        if ((m + number) % (tally->all ? 3 : 8) == 0 && canMeet(&MISTAKES[m], &MISTAKES[other]))
+        if ((m + number) % (tally->all ? 3 : 15) == 0 && canMeet(&MISTAKES[m], &MISTAKES[other]))
             plant(tally, path, scene, &MISTAKES[m], &MISTAKES[other], bits, encoding);
     }
 }
