@@ -28,9 +28,7 @@ int runPov(const Arguments *arguments)
         return printError(NULL, &status);
 
     Scene scene;
-    Text messages = {0};
-    status = openScene(path, arguments, &scene, &messages);
-    printMessages(&messages);
+    status = openSceneAloud(path, arguments, &scene);
     if (!statusIsOk(&status))
         return (int)status.code;
 

@@ -102,9 +102,7 @@ int runRender(const Arguments *arguments)
         return printError(NULL, &status);
 
     Scene scene;
-    Text messages = {0};
-    status = openScene(path, arguments, &scene, &messages);
-    printMessages(&messages);
+    status = openSceneAloud(path, arguments, &scene);
     if (!statusIsOk(&status))
         return (int)status.code;
 

@@ -167,9 +167,7 @@ static int explainWithScene(const Arguments *arguments)
     if (!statusIsOk(&status))
         return printError(NULL, &status);
     Scene scene;
-    Text messages = {0};
-    status = openScene(path, arguments, &scene, &messages);
-    printMessages(&messages);
+    status = openSceneAloud(path, arguments, &scene);
     if (!statusIsOk(&status)) {
         freeImage(&picture);
         return (int)status.code;

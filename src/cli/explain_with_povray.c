@@ -171,9 +171,7 @@ int explainWithPovray(const Arguments *arguments)
     if (!statusIsOk(&status))
         return printError(NULL, &status);
     Scene scene;
-    Text messages = {0};
-    status = openScene(arguments->operands[0], arguments, &scene, &messages);
-    printMessages(&messages);
+    status = openSceneAloud(arguments->operands[0], arguments, &scene);
     if (!statusIsOk(&status))
         return (int)status.code;
     int code = explainScene(arguments, &scene);

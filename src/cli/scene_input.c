@@ -100,6 +100,14 @@ Status openScene(const char *path, const Arguments *arguments, Scene *scene, Tex
     return status;
 }
 
+Status openSceneAloud(const char *path, const Arguments *arguments, Scene *scene)
+{
+    Text messages = {0};
+    Status status = openScene(path, arguments, scene, &messages);
+    printMessages(&messages);
+    return status;
+}
+
 int chosenThreads(const Arguments *arguments)
 {
     return arguments->threads > 0 ? arguments->threads : availableProcessors();

@@ -14,6 +14,9 @@
  * appended to messages. On success the caller frees the scene with freeScene. */
 Status openScene(const char *path, const Arguments *arguments, Scene *scene, Text *messages);
 
+/* The same, printing at once what there is to say. */
+Status openSceneAloud(const char *path, const Arguments *arguments, Scene *scene);
+
 /* Let the limits that were given, those that are not NAN, take the place of others. */
 void overrideTolerance(const Tolerance *given, Tolerance *tolerance);
 

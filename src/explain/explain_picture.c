@@ -148,11 +148,11 @@ static bool isRounding(const Look *look)
     return (double)look->differing <= STRAY_SHARE * (double)look->pixels;
 }
 
-/* Whether mine was cut off where the other was rounded: many samples are a step lower and none is higher. */
-static bool isCutOff(const Look *look)
+/* Whether one picture was cut off where the other was rounded: many of its samples are a step lower and none
+ * is higher. lower and higher: of the look's samples, those where it is so. */
+static bool isCutOff(const Look *look, size_t lower, size_t higher)
 {
-    return look->isOneFormat && isRounding(look) && look->below > 3 * look->pixels / 10 &&
-           look->above * 50 < look->below;
+    return look->isOneFormat && isRounding(look) && lower > 3 * look->pixels / 10 && higher * 50 < lower;
 }
 
 static bool hasSpecks(const Look *look)
@@ -384,13 +384,13 @@ Status explainPictures(const Image *mine, const char *mineName, const Image *ref
     if (!statusIsOk(&status))
         return status;
     PictureExplanation found = {0};
-    Look look = lookAt(mine, reference), back = lookAt(reference, mine);
+    Look look = lookAt(mine, reference);
     found.causes.before = look.rmse;
     if (cancelRequested())
         status = statusInterrupted();
     else if (isRounding(&look) && mine->bitDepth != reference->bitDepth)
         tellDepths(mine, reference, 0, &found.causes);
-    else if (isCutOff(&look) || isCutOff(&back))
+    else if (isCutOff(&look, look.below, look.above) || isCutOff(&look, look.above, look.below))
         tellCutOff(mine->bitDepth, 0, &found.causes);
     else if (isRounding(&look))
         tellAgreement(&look, &found.summary);
@@ -460,7 +460,7 @@ Status explainPictureOfScene(const Image *picture, const Scene *scene, const Sce
     if (statusIsOk(&status)) {
         Look look = lookAt(picture, &found.right);
         found.causes.before = look.rmse;
-        if (isCutOff(&look))
+        if (isCutOff(&look, look.below, look.above))
             tellCutOff(picture->bitDepth, 0, &found.causes);
         else if (isRounding(&look))
             tellAgreement(&look, &found.summary);

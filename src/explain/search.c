@@ -496,14 +496,14 @@ static Candidate chooseCandidate(Search *fine, Search *rough, double *singles, d
 
 static void storeFindings(Search *full, const Candidate *chosen, double floorError, Findings *findings)
 {
-    ValueChange neutral = neutralValueChange();
-    findings->before = measureMisfit(full->evidence, &full->right, &neutral, 1).plain;
+    double before = plainBefore(full);
+    findings->before = before;
     findings->count = 0;
     if (chosen->count == 0)
         return;
-    double before = plainBefore(full), left = measureCandidate(full, chosen, before);
-    bool isRounding = left <= 2 * floorError && findings->before >= 6 * floorError;
-    if (left >= EXPLAINED_SHARE * findings->before && !isRounding)
+    double left = measureCandidate(full, chosen, before);
+    bool isRounding = left <= 2 * floorError && before >= 6 * floorError;
+    if (left >= EXPLAINED_SHARE * before && !isRounding)
         return;
     for (int i = 0; i < chosen->count; i++) {
         Candidate part = *chosen;
@@ -514,10 +514,9 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
                       .residual = i + 1 < chosen->count ? measureCandidate(full, &part, before) : left};
     }
     /* A first cause that makes it worse only serves the second: together they fit by chance. */
-    if (findings->items[0].residual > findings->before)
+    if (findings->items[0].residual > before)
         return;
     findings->count = chosen->count;
-    findings->chosen = hypothesisOf(chosen);
 }
 
 Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const Traits *traits,

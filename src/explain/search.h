@@ -22,9 +22,8 @@ enum {
 
 typedef struct Findings {
     Finding items[MOST_FINDINGS];
-    int count;         /* 0: nothing fits */
-    double before;     /* the error of the right picture itself */
-    Hypothesis chosen; /* all findings together */
+    int count;     /* 0: nothing fits */
+    double before; /* the error of the right picture itself */
 } Findings;
 
 /* Fit the traits to the wrong picture; right is how the right one would be stored, of the same size.
