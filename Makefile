@@ -27,7 +27,8 @@ say = $(if $(filter 1,$(V)),,@printf '  %-5s %s\n' '$(1)' '$(2)')
 # ---------------------------------------------------------------------------------------------------------
 
 # -O2: the level both compilers test most. No -march: the program runs on every machine of its architecture.
-OPTIMIZE ?= -O2
+# -O1 with sanitizers: what they look at is there all the same, and the compiler takes half the time.
+OPTIMIZE ?= $(if $(SANITIZE),-O1,-O2)
 
 # -ffp-contract=off: a multiply and an add are never fused, so every machine computes the same last bits.
 # -fno-math-errno, -fno-trapping-math: nothing here reads errno or the floating-point flags after arithmetic,
@@ -55,7 +56,7 @@ PORTABLE ?=
 LANE_PATHS := plain $(if $(filter x86_64,$(ARCHITECTURE)),$(if $(PORTABLE),,avx2))
 LANE_FLAGS_plain :=
 LANE_FLAGS_avx2 := -mavx2 -mfma -mtune=znver3
-LANE_OPTIMIZE ?= -O3
+LANE_OPTIMIZE ?= $(if $(SANITIZE),-O1,-O3)
 ENGINE_DEFINES := $(if $(filter avx2,$(LANE_PATHS)),-DECLAIRAGE_HAS_AVX2) $(if $(PORTABLE),-DECLAIRAGE_PORTABLE)
 
 # _POSIX_C_SOURCE: -std=c17 hides everything outside ISO C; POSIX threads, files and processes are needed.
@@ -205,6 +206,8 @@ MAKE_NOTES = CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' ECLAIRAGE='$(BUILD)/eclairage
 ## unit: build the unit tests; `CMOCKA_MESSAGE_OUTPUT=TAP build/tests/test_NAME` runs one
 unit: $(UNIT_TESTS)
 
+property: $(PROPERTY_PROGRAMS:%=$(BUILD)/%)
+
 ## setup: install everything the tests can use, the browser's among it
 setup:
 	@$(INSTALLER) build demo unit test browser notes
@@ -294,5 +297,5 @@ help:
 	@sed -n 's/^## \([A-Z][^ ]*\): /  \1:/p' $(firstword $(MAKEFILE_LIST)) | $(help-columns)
 
 .DEFAULT_GOAL := all
-.PHONY: all demo notes update-notes test unit setup lint format fuzz bench docs update-results install uninstall clean help FORCE
+.PHONY: all demo notes update-notes test unit property setup lint format fuzz bench docs update-results install uninstall clean help FORCE
 .DELETE_ON_ERROR:

@@ -9,7 +9,8 @@
 #   SANITIZE=address,undefined tools/run-tests.sh    unit and cli, with a build under those sanitizers
 #
 # From make come MAKE, CC, BUILD and SANITIZE. Tests get ECLAIRAGE (the program's absolute path), BUILD,
-# CC and MAKE, and ECLAIRAGE_SANITIZED=1 where the program is slower and hungrier than a user's.
+# CC and MAKE, and ECLAIRAGE_SANITIZED=1 where the program is slower and hungrier than a user's. NOTES_SITE is where
+# the first test that needs the notes makes them for the others.
 
 set -u -o pipefail
 cd "$(dirname "$0")/.." || exit 1
@@ -27,10 +28,9 @@ unset NO_COLOR CLICOLOR CLICOLOR_FORCE
 processors=$(nproc 2>/dev/null || echo 2)
 timeLimit=300 # seconds for one test program
 logs=$BUILD/test-logs
-reports=$PWD/$logs/sanitizer
 rm -rf "$logs"
 mkdir -p "$logs"
-case $BUILD in /*) reports=$logs/sanitizer ;; esac
+logs=$(realpath "$logs")
 
 passed=0
 failed=0
@@ -47,68 +47,38 @@ stopAll() {
 }
 trap stopAll INT TERM
 
-# --- A suite: a heading, jobs that run side by side, their results in order, one line of counts -----------
+# --- A suite: builds and checks, done at once, and jobs that wait for their turn ---------------------------
 
-beginSuite() { # TITLE
-    printf '\n== %s\n' "$1"
+declare -A titles suitePassed suiteFailed suiteSkipped jobNames
+begun=()
+beginSuite() { # TITLE FOLDER
     suite=$logs/$2
     mkdir -p "$suite"
-    jobNames=()
-    suiteStart=$SECONDS
-    suitePassed=0
-    suiteFailed=0
-    suiteSkipped=0
+    begun+=("$suite")
+    titles[$suite]=$1
+    suitePassed[$suite]=0
+    suiteFailed[$suite]=0
+    suiteSkipped[$suite]=0
+    jobNames[$suite]=
+    : >"$suite/said"
 }
 
-# Starts a TAP program in the background; its output and exit status go to files named after it.
+# A line that is printed with the suite's result.
+say() { # TEXT
+    printf '  %s\n' "$1" >>"$suite/said"
+}
+
+skipSuite() { # TITLE FOLDER REASON
+    beginSuite "$1" "$2"
+    suiteSkipped[$suite]=1
+    say "skipped: $3"
+}
+
+# A TAP program that is run later. Its output, exit status and seconds go to files named after it.
+queue=()
 addJob() { # NAME COMMAND...
-    local name=$1
-    shift
-    while (($(jobs -pr | wc -l) >= processors)); do
-        wait -n
-    done
-    jobNames+=("$name")
-    (
-        timeout --kill-after=10 "$timeLimit" "$@" </dev/null >"$suite/$name.log" 2>&1 &
-        program=$!
-        trap 'kill "$program"' TERM
-        wait "$program"
-        echo $? >"$suite/$name.status"
-    ) &
-}
-
-endSuite() {
-    local name status counts
-    wait
-    for name in ${jobNames[@]+"${jobNames[@]}"}; do
-        status=$(cat "$suite/$name.status" 2>/dev/null || echo 'unknown')
-        {
-            read -r -a counts
-            cat
-        } < <(awk -v name="$name" -v status="$status" -f tools/read-tap.awk "$suite/$name.log")
-        suitePassed=$((suitePassed + counts[0]))
-        suiteFailed=$((suiteFailed + counts[1]))
-        suiteSkipped=$((suiteSkipped + counts[2]))
-    done
-    # A sanitizer's report fails the suite even if the test swallowed the program's output.
-    for report in "$reports".*; do
-        [ -f "$report" ] || continue
-        suiteFailed=$((suiteFailed + 1))
-        echo "  FAILED: a sanitizer reported:"
-        sed 's/^/    /' "$report"
-        mv "$report" "$suite/"
-    done
-    printf '   %d passed, %d failed' "$suitePassed" "$suiteFailed"
-    [ "$suiteSkipped" = 0 ] || printf ', %d skipped' "$suiteSkipped"
-    printf ' (%d s)\n' $((SECONDS - suiteStart))
-    passed=$((passed + suitePassed))
-    failed=$((failed + suiteFailed))
-    skipped=$((skipped + suiteSkipped))
-}
-
-skipSuite() { # TITLE REASON
-    printf '\n== %s\n   skipped: %s\n' "$1" "$2"
-    skipped=$((skipped + 1))
+    jobNames[$suite]+=" $1"
+    queue+=("$(printf '%q ' "$suite/$1" "${@:2}")")
 }
 
 # One test inside the current suite: a command that says what is wrong and exits with an error, or 77 to skip.
@@ -119,16 +89,16 @@ check() { # LABEL COMMAND...
     status=$?
     case $status in
     0)
-        suitePassed=$((suitePassed + 1))
+        suitePassed[$suite]=$((suitePassed[$suite] + 1))
         ;;
     77)
-        suiteSkipped=$((suiteSkipped + 1))
-        echo "  skipped: $label: $(cat "$log")"
+        suiteSkipped[$suite]=$((suiteSkipped[$suite] + 1))
+        say "skipped: $label: $(cat "$log")"
         ;;
     *)
-        suiteFailed=$((suiteFailed + 1))
-        sed 's/^/    /' "$log"
-        echo "  FAILED: $label (exit status $status)"
+        suiteFailed[$suite]=$((suiteFailed[$suite] + 1))
+        sed 's/^/    /' "$log" >>"$suite/said"
+        say "FAILED: $label (exit status $status)"
         ;;
     esac
     return $status
@@ -136,19 +106,104 @@ check() { # LABEL COMMAND...
 
 # Builds targets with make; a failure is printed and counted as a failed test of the current suite.
 build() { # FOLDER TARGET... [VARIABLE=VALUE...]
-    local folder=$1 log
+    local folder=$1 log=$suite/build.log
     shift
-    log=$suite/build.log
     if ! "$MAKE" --no-print-directory -k -j"$processors" BUILD="$folder" "$@" </dev/null >"$log" 2>&1; then
-        suiteFailed=$((suiteFailed + 1))
-        grep -v '^  [A-Z]* ' "$log" | sed 's/^/    /'
-        echo "  FAILED: the build in $folder"
+        suiteFailed[$suite]=$((suiteFailed[$suite] + 1))
+        grep -v '^  [A-Z]* ' "$log" | sed 's/^/    /' >>"$suite/said"
+        say "FAILED: the build in $folder"
         return 1
     fi
 }
 
+# Builds targets of the tested program. Where there was nothing before, what the compiler says is kept: all of it.
+[ -d "$BUILD/obj" ] || : >"$logs/whole-build"
+buildTested() { # TARGET...
+    local status=0
+    build "$BUILD" "$@" SANITIZE="$SANITIZE" || status=$?
+    [ ! -f "$logs/whole-build" ] || cat "$suite/build.log" >>"$logs/whole-build"
+    return $status
+}
+
 absolute() {
     case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac
+}
+
+# --- Running: the jobs of all suites side by side, each suite told once its last job is done ----------------
+
+startJob() { # FILES COMMAND...
+    local files=$1
+    shift
+    (
+        start=$SECONDS
+        timeout --kill-after=10 "$timeLimit" "$@" </dev/null >"$files.log" 2>&1 &
+        program=$!
+        trap 'kill "$program"' TERM
+        wait "$program"
+        status=$?
+        { echo "$((SECONDS - start)) s" && times; } >"$files.seconds"
+        echo "$status" >"$files.status"
+    ) &
+}
+
+runJobs() {
+    local job words
+    for job in ${queue[@]+"${queue[@]}"}; do
+        while (($(jobs -pr | wc -l) >= processors)); do
+            wait -n
+            tellSuites
+        done
+        eval "words=($job)"
+        startJob "${words[@]}"
+    done
+    while [ "$(jobs -pr)" != "" ]; do
+        wait -n
+        tellSuites
+    done
+    tellSuites
+}
+
+# Prints the suites that are done and were not told yet.
+tellSuites() {
+    local name waiting=()
+    for suite in ${begun[@]+"${begun[@]}"}; do
+        for name in ${jobNames[$suite]}; do
+            [ -f "$suite/$name.status" ] && continue
+            waiting+=("$suite")
+            continue 2
+        done
+        tellSuite
+    done
+    begun=(${waiting[@]+"${waiting[@]}"})
+}
+
+tellSuite() {
+    local name status counts report
+    for name in ${jobNames[$suite]}; do
+        status=$(cat "$suite/$name.status")
+        {
+            read -r -a counts
+            cat >>"$suite/said"
+        } < <(awk -v name="$name" -v status="$status" -f tools/read-tap.awk "$suite/$name.log")
+        suitePassed[$suite]=$((suitePassed[$suite] + counts[0]))
+        suiteFailed[$suite]=$((suiteFailed[$suite] + counts[1]))
+        suiteSkipped[$suite]=$((suiteSkipped[$suite] + counts[2]))
+    done
+    # A sanitizer's report fails the suite even if the test swallowed the program's output.
+    for report in "$suite"/sanitizer.*; do
+        [ -f "$report" ] || continue
+        suiteFailed[$suite]=$((suiteFailed[$suite] + 1))
+        say "FAILED: a sanitizer reported:"
+        sed 's/^/    /' "$report" >>"$suite/said"
+    done
+    printf '\n== %s\n' "${titles[$suite]}"
+    cat "$suite/said"
+    printf '   %d passed, %d failed' "${suitePassed[$suite]}" "${suiteFailed[$suite]}"
+    [ "${suiteSkipped[$suite]}" = 0 ] || printf ', %d skipped' "${suiteSkipped[$suite]}"
+    printf '\n'
+    passed=$((passed + suitePassed[$suite]))
+    failed=$((failed + suiteFailed[$suite]))
+    skipped=$((skipped + suiteSkipped[$suite]))
 }
 
 # --- The suites -------------------------------------------------------------------------------------------
@@ -158,51 +213,49 @@ absolute() {
 # Memory that cannot be had gives NULL, as it does without a sanitizer.
 sanitizedFolder=$BUILD
 [ -n "$SANITIZE" ] || sanitizedFolder=$BUILD/address-undefined
-sanitizedEnvironment=(
-    "ECLAIRAGE=$(absolute "$sanitizedFolder")/eclairage" "ECLAIRAGE_SANITIZED=1"
-    "ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1:exitcode=99:log_path=$reports:${ASAN_OPTIONS-}"
-    "UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1:exitcode=99:log_path=$reports:${UBSAN_OPTIONS-}"
-)
-plainEnvironment=("ECLAIRAGE=$(absolute "$BUILD")/eclairage")
-if [ -n "$SANITIZE" ]; then
-    plainEnvironment=("${sanitizedEnvironment[@]}")
-fi
+setEnvironment() { # FOLDER; sets `environment` for the current suite's jobs
+    environment=("ECLAIRAGE=$(absolute "$1")/eclairage")
+    [ "$1" != "$sanitizedFolder" ] || environment+=(
+        "ECLAIRAGE_SANITIZED=1"
+        "ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1:exitcode=99:log_path=$suite/sanitizer:${ASAN_OPTIONS-}"
+        "UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1:exitcode=99:log_path=$suite/sanitizer:${UBSAN_OPTIONS-}"
+    )
+}
 
 hasFiles() { # true if the pattern that the caller wrote matched something
     [ -e "$1" ]
 }
 
-unitTests() { # FOLDER ENVIRONMENT...
-    local folder=$1 program
-    shift
+unitTests() { # FOLDER
+    local program
+    setEnvironment "$1"
     for program in tests/unit/test_*.c; do
         program=${program##*/}
-        program=$folder/tests/${program%.c}
+        program=$1/tests/${program%.c}
         # A program that did not build was counted by build.
-        [ ! -x "$program" ] || addJob "${program##*/}" env "$@" CMOCKA_MESSAGE_OUTPUT=TAP "$program"
+        [ ! -x "$program" ] || addJob "${program##*/}" env "${environment[@]}" CMOCKA_MESSAGE_OUTPUT=TAP "$program"
     done
 }
 
-commandLineTests() { # ENVIRONMENT...
+commandLineTests() { # FOLDER
     local file
+    setEnvironment "$1"
     for file in tests/cli/*.bats; do
-        addJob "${file##*/}" env "$@" bats --tap "$file"
+        addJob "${file##*/}" env "${environment[@]}" bats --tap "$file"
     done
 }
 
 suite_unit() {
     hasFiles tests/unit/test_*.c || return 0
     beginSuite "Unit tests" unit
-    build "$BUILD" all unit SANITIZE="$SANITIZE"
-    unitTests "$BUILD" "${plainEnvironment[@]}"
-    endSuite
+    buildTested all unit
+    unitTests "$BUILD"
 }
 
 suite_cli() {
     hasFiles tests/cli/*.bats || return 0
     beginSuite "The command line" cli
-    build "$BUILD" all SANITIZE="$SANITIZE" && commandLineTests "${plainEnvironment[@]}"
-    endSuite
+    buildTested all && commandLineTests "$BUILD"
 }
 
 # Everything once more, the program too, with the address and undefined-behaviour sanitizers.
@@ -210,57 +263,44 @@ suite_sanitized() {
     hasFiles tests/unit/test_*.c || return 0
     beginSuite "Unit tests and the command line under AddressSanitizer and UndefinedBehaviorSanitizer" sanitized
     build "$sanitizedFolder" all unit SANITIZE=address,undefined
-    unitTests "$sanitizedFolder" "${sanitizedEnvironment[@]}"
     if hasFiles tests/cli/*.bats && [ -x "$sanitizedFolder/eclairage" ]; then
-        commandLineTests "${sanitizedEnvironment[@]}"
+        commandLineTests "$sanitizedFolder"
     fi
-    endSuite
+    unitTests "$sanitizedFolder"
 }
 
 # A real build and not only a look at the syntax: some warnings need the optimiser. Then the pictures of the
 # compilers and of the sanitized program are the same to the byte.
 suite_compilers() {
-    local compiler
+    local compiler folder programs=()
     beginSuite "gcc and clang: warnings are errors, and the pictures are the same" compilers
     for compiler in gcc clang; do
+        folder=$BUILD/$compiler
         if ! command -v $compiler >/dev/null; then
-            echo "  skipped: $compiler is not installed"
-            suiteSkipped=$((suiteSkipped + 1))
-        elif build "$BUILD/$compiler" all unit CC=$compiler WERROR=1; then
-            suitePassed=$((suitePassed + 1))
+            say "skipped: $compiler is not installed"
+            suiteSkipped[$suite]=$((suiteSkipped[$suite] + 1))
+        elif [ -f "$logs/whole-build" ] && [ "$(compilerName "$CC")" = "$(compilerName $compiler)" ]; then
+            folder=$BUILD
+            buildTested all unit property && check "no warning of $compiler" noWarning
+        elif build "$folder" all unit property CC=$compiler WERROR=1; then
+            suitePassed[$suite]=$((suitePassed[$suite] + 1))
         fi
+        programs+=("$folder/eclairage")
     done
-    check "the same pictures from every build" samePictures
-    endSuite
+    addJob same-pictures.sh tools/same-pictures.sh "${programs[@]}" "$sanitizedFolder/eclairage"
 }
-samePictures() {
-    local scene folder expected actual program programs=() different=0
-    for folder in "$BUILD/gcc" "$BUILD/clang" "$sanitizedFolder"; do
-        [ ! -x "$folder/eclairage" ] || programs+=("$folder/eclairage")
-    done
-    if [ ${#programs[@]} -lt 2 ]; then
-        echo "there is only one build"
-        return 77
-    fi
-    for scene in scenes/course/*.yaml scenes/gallery/*.yaml; do
-        expected=
-        for program in "${programs[@]}"; do
-            actual=$("$program" render "$scene" --width 64 --quiet -o - | sha256sum) || return 1
-            expected=${expected:-$actual}
-            if [ "$actual" != "$expected" ]; then
-                echo "$scene: $program draws other bytes than ${programs[0]}"
-                different=1
-            fi
-        done
-    done
-    return $different
+compilerName() { # COMPILER
+    "$1" --version 2>/dev/null | head -n 1 | sed 's/^[^ ]* //'
+}
+# Where this run built the tested program from nothing, another build by the same compiler would say the same.
+noWarning() {
+    ! grep -A 3 'warning:' "$logs/whole-build"
 }
 
 suite_style() {
     beginSuite "Layout of the code, and who includes whom" style
     check "clang-format" tools/check-format.sh
     check "include arrows" tools/check-includes.sh
-    endSuite
 }
 
 # Every executable tests/suites/*.sh is a suite: it runs from the top folder, prints TAP and cleans up.
@@ -268,32 +308,32 @@ suite_shell() {
     local script
     hasFiles tests/suites/*.sh || return 0
     beginSuite "Whole-program suites (tests/suites)" shell
-    if build "$BUILD" all SANITIZE="$SANITIZE"; then
+    setEnvironment "$BUILD"
+    if buildTested all property; then
         for script in tests/suites/*.sh; do
-            addJob "${script##*/}" env "${plainEnvironment[@]}" "$script"
+            addJob "${script##*/}" env "${environment[@]}" NOTES_SITE="$logs/notes" "$script"
         done
     fi
-    endSuite
 }
 
 suite_browser() {
     local file title="The report and the notes in a browser"
     hasFiles tests/browser/*test*.*js || return 0
     if ! command -v node >/dev/null; then
-        skipSuite "$title" "node is not installed (make setup installs it)"
+        skipSuite "$title" browser "node is not installed (make setup installs it)"
     elif [ ! -d tests/browser/node_modules/playwright-core ]; then
-        skipSuite "$title" "playwright-core is not installed (make setup installs it)"
+        skipSuite "$title" browser "playwright-core is not installed (make setup installs it)"
     elif ! command -v chromium >/dev/null && ! command -v chromium-browser >/dev/null &&
         ! command -v google-chrome >/dev/null; then
-        skipSuite "$title" "chromium is not installed (make setup installs it)"
+        skipSuite "$title" browser "chromium is not installed (make setup installs it)"
     else
         beginSuite "$title" browser
-        if build "$BUILD" all SANITIZE="$SANITIZE"; then
+        setEnvironment "$BUILD"
+        if buildTested all; then
             for file in tests/browser/*test*.*js; do
-                addJob "${file##*/}" env "${plainEnvironment[@]}" node "$file"
+                addJob "${file##*/}" env "${environment[@]}" NOTES_SITE="$logs/notes" node "$file"
             done
         fi
-        endSuite
     fi
 }
 
@@ -305,13 +345,14 @@ suite_clean() {
     [ "$treeBefore" = "" ] || return 0
     beginSuite "The work tree after the tests" clean
     check "git status is clean" treeIsClean
-    endSuite
+    tellSuites
 }
 
+# In this order the jobs start: the long ones first, so that at the end no processor waits for one.
 treeBefore=$(git status --porcelain 2>/dev/null || echo unknown)
-allSuites='style unit cli shell sanitized compilers browser clean'
+allSuites='style shell sanitized compilers browser cli unit'
 suites=$allSuites
-[ -z "$SANITIZE" ] || suites='unit cli'
+[ -z "$SANITIZE" ] || suites='cli unit'
 suites=${SUITES:-$suites}
 for name in $suites; do
     case " $allSuites " in
@@ -325,12 +366,15 @@ done
 for name in $suites; do
     "suite_$name"
 done
+runJobs
+suite_clean
 
 if [ $((passed + failed)) = 0 ]; then
     echo "No test ran."
     failed=1
 fi
-printf '\n%d passed, %d failed' "$passed" "$failed"
+printf '\nHow long each took: %s/*/*.seconds\n' "${logs#"$PWD/"}"
+printf '%d passed, %d failed' "$passed" "$failed"
 [ "$skipped" = 0 ] || printf ', %d skipped' "$skipped"
 printf '\n'
 [ "$failed" = 0 ]

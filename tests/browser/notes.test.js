@@ -3,8 +3,9 @@
  *   node tests/browser/notes.test.js [SITE]
  *
  * Run from anywhere in the repository after `make`. Makes the site in a temporary folder with the program in
- * $ECLAIRAGE, or looks at one that is made, such as build/notes. Every page is opened at the width of a
- * telephone and of a desk, in light and in dark; what a page does is tried where there is such a thing.
+ * $ECLAIRAGE, or looks at one that is made: SITE, such as build/notes, or $NOTES_SITE where it is there already.
+ * Every page is opened at the width of a telephone and of a desk, in light and in dark; what a page does is tried
+ * where there is such a thing.
  */
 'use strict';
 const fs = require('node:fs');
@@ -196,6 +197,7 @@ async function main() {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'eclairage-notes-'));
   try {
     let site = process.argv[2] && path.resolve(process.argv[2]);
+    if (!site && process.env.NOTES_SITE && fs.existsSync(process.env.NOTES_SITE)) site = process.env.NOTES_SITE;
     if (!site) {
       site = path.join(folder, 'site');
       const program = path.resolve(root, process.env.ECLAIRAGE || 'build/eclairage');

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The notes are made anew with the tested program: their numbers are the committed ones, the languages show the
 # same, every page is whole in itself, every link leads somewhere; and what is wrong in a chapter is told and stops
-# the build. Prints TAP. Run from the repository root.
+# the build. Prints TAP. Run from the repository root. The site stays where NOTES_SITE says.
 set -uo pipefail
 for tool in pandoc jq povray; do
     command -v $tool >/dev/null || {
@@ -15,7 +15,7 @@ if [ -n "${ECLAIRAGE_SANITIZED-}" ]; then
 fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-site=$folder/site
+site=${NOTES_SITE:-$folder/site}
 count=0
 report() { # LABEL; standard input says what is wrong, or nothing
     local said

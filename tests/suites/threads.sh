@@ -11,7 +11,7 @@ if ! printf 'int main(void) { return 0; }\n' | ${CC:-cc} -fsanitize=thread -x c 
     echo "1..0 # SKIP ${CC:-cc} has no working -fsanitize=thread"
     exit 0
 fi
-if ! "${MAKE:-make}" --no-print-directory SANITIZE=thread OPTIMIZE=-O1 LANE_OPTIMIZE=-O1 BUILD="$build" \
+if ! "${MAKE:-make}" --no-print-directory SANITIZE=thread BUILD="$build" \
     "$build/eclairage" >"$folder/log" 2>&1; then
     sed 's/^/# /' "$folder/log"
     echo 'Bail out! the build with -fsanitize=thread failed'
