@@ -151,7 +151,7 @@ static int explainScene(const Arguments *arguments, Scene *scene)
     if (statusIsOk(&status)) {
         code = tellHabits(arguments, &study, scene, &ours);
         Text seconds = {0};
-        appendFixed(&seconds, secondsSince(start), 1);
+        textAppendFixed(&seconds, secondsSince(start), 1);
         printNote("%d pictures in %s s", study.pictureCount + 1, textString(&seconds));
         textFree(&seconds);
         freeHabitStudy(&study);

@@ -30,8 +30,7 @@ Vector3D worldPointAt(const DrawingPlane *plane, DrawnPoint point)
 
 void appendPixels(Text *text, double value)
 {
-    long tenths = isfinite(value) ? lround(fmax(-1e5, fmin(1e5, value)) * 10) : 0;
-    textAppendFormat(text, "%s%ld.%ld", tenths < 0 ? "-" : "", labs(tenths) / 10, labs(tenths) % 10);
+    textAppendFixed(text, isfinite(value) ? fmax(-1e5, fmin(1e5, value)) : 0, 1);
 }
 
 static void appendPoint(Text *path, const char *command, DrawnPoint point)

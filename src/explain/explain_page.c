@@ -120,7 +120,7 @@ void writeBreakableName(ExplainPage *page, const char *name)
 void writeNumber(ExplainPage *page, double value)
 {
     Text text = {0};
-    appendFixed(&text, value, PAGE_DECIMALS);
+    textAppendFixed(&text, value, PAGE_DECIMALS);
     writeMade(page, &text);
 }
 
@@ -128,7 +128,7 @@ void appendChange(Text *text, double change)
 {
     double shown = round(change * 1e5);
     textAppend(text, shown > 0 ? "+" : shown < 0 ? "\xE2\x88\x92" : "");
-    appendFixed(text, fabs(change), PAGE_DECIMALS);
+    textAppendFixed(text, fabs(change), PAGE_DECIMALS);
 }
 
 /* ---- The frame ---- */
@@ -291,9 +291,9 @@ static void appendBox(Text *svg, const char *kind, double from, double to, doubl
 {
     double scale = largest > 0 ? CHART_WIDTH / largest : 0;
     textAppendFormat(svg, "<rect class=\"%s\" x=\"", kind);
-    appendFixed(svg, from * scale, 2);
+    textAppendFixed(svg, from * scale, 2);
     textAppendFormat(svg, "\" y=\"%d\" width=\"", top + BAR_TOP);
-    appendFixed(svg, fmax(to - from, 0) * scale, 2);
+    textAppendFixed(svg, fmax(to - from, 0) * scale, 2);
     textAppendFormat(svg, "\" height=\"%d\"/>\n", BAR_HEIGHT);
 }
 
@@ -305,7 +305,7 @@ void appendWaterfallRow(const Waterfall *chart, int row, const char *label, doub
     textAppendHtml(svg, label);
     textAppendFormat(svg, "</text><text class=\"number\" x=\"%d\" y=\"%d\" text-anchor=\"end\">", CHART_WIDTH,
                      top + 17);
-    appendFixed(svg, after, PAGE_DECIMALS);
+    textAppendFixed(svg, after, PAGE_DECIMALS);
     if (after != before) {
         textAppend(svg, " (");
         appendChange(svg, after - before);

@@ -81,13 +81,5 @@ void writeExplanationsText(const Explanations *explanations, const char *summary
 
 void appendRounded(Text *text, double value, int digits)
 {
-    if (value == 0 || !isfinite(value)) {
-        textAppendDouble(text, value);
-        return;
-    }
-    /* Round at the last digit asked for; the shortest spelling of that has no more. */
-    int exponent = (int)floor(log10(fabs(value)));
-    double unit = pow(10, abs(exponent - digits + 1));
-    double scaled = exponent - digits + 1 < 0 ? round(value * unit) / unit : round(value / unit) * unit;
-    textAppendDouble(text, scaled);
+    textAppendRounded(text, value, digits);
 }

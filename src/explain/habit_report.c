@@ -45,9 +45,9 @@ static void writeChart(ExplainPage *page, const HabitStudy *study)
     double before = rmseAfter(study, 0);
     Text svg = {0}, words = {0};
     textAppend(&words, "Bars of the root mean square error, from ");
-    appendFixed(&words, before, PAGE_DECIMALS);
+    textAppendFixed(&words, before, PAGE_DECIMALS);
     textAppend(&words, " with all habits to ");
-    appendFixed(&words, rmseAfter(study, study->count), PAGE_DECIMALS);
+    textAppendFixed(&words, rmseAfter(study, study->count), PAGE_DECIMALS);
     textAppend(&words, " with none; the table has the same numbers.");
     beginWaterfall(&chart, "How the difference goes down as the habits are taken back", textString(&words),
                    &svg);
