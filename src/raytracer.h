@@ -303,6 +303,32 @@ Color3f shade(const SurfaceFinder *finder, const SurfacePoint *point, const Ray 
 /* The part of it that comes along mirrored and refracted rays, added to the color of all else. */
 Color3f addSecondaryRays(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
                          const Ray *ray, const Media *media, int depth, Color3f color, RayCounts *counts);
+/* What the rays of a picture's pixels have in common. Nothing is owned. */
+typedef struct PixelRays {
+    const Scene *scene;
+    int width, height;
+    CameraFrame frame;
+    const uint32_t *transparent; /* numbers of the transparent objects */
+    size_t transparentCount;
+    Media media; /* at the position of a perspective camera */
+    /* NULL, or puts in place of a point of the picture, in pixels, another one to look through. */
+    void (*movePoint)(const void *context, int width, int height, double *x, double *y);
+    const void *moveContext;
+} PixelRays;
+
+/* transparent: as findTransparentObjects gives them. */
+PixelRays createPixelRays(const Scene *scene, int width, int height, const uint32_t *transparent,
+                          size_t transparentCount);
+
+/* The transparent objects that a ray of the camera starts in. */
+Media cameraMedia(const PixelRays *rays, const Ray *ray);
+
+/* The ray through a point of the picture (see cameraRay), and the media where it starts. */
+Ray pixelRay(const PixelRays *rays, double x, double y, Media *media);
+
+/* The mean of a pixel's samples x samples rays, evenly spread; of one, through the middle. */
+Color3f tracePixel(const PixelRays *rays, const SurfaceFinder *finder, int x, int y, RayCounts *counts);
+
 
 /* What a ray sees that meets nothing, and what is left of a color seen through fog, with the fog's own. */
 Color3f backgroundColor(const Background *background, const Ray *ray);
