@@ -12,10 +12,6 @@
 
 #include <string.h>
 
-enum {
-    POVRAY_TIMEOUT = 600 /* seconds for one picture */
-};
-
 /* Both pictures of a scene and their difference. */
 typedef struct Pictures {
     Image ours, povray, difference;
@@ -99,13 +95,7 @@ static Status drawOurs(const CompareSettings *settings, const Scene *scene, cons
 static Status drawWithPovray(const CompareSettings *settings, const Scene *scene, const Text *pov,
                              Image *povray, PictureResult *result)
 {
-    PovraySettings povraySettings = {.width = scene->image.width,
-                                     .height = scene->image.height,
-                                     .bitDepth = scene->image.bitDepth,
-                                     .encoding = scene->image.encoding,
-                                     .samples = scene->render.samples,
-                                     .threads = settings->povrayThreads,
-                                     .timeoutSeconds = POVRAY_TIMEOUT};
+    PovraySettings povraySettings = createPovraySettings(scene, settings->povrayThreads);
     double start = secondsNow();
     Status status = runPovray(textString(pov), &povraySettings, povray);
     result->povraySeconds = secondsSince(start);

@@ -13,10 +13,6 @@
 
 #include <string.h>
 
-enum {
-    POVRAY_TIMEOUT = 600 /* seconds for one picture */
-};
-
 /* ---- Files in the folder ---- */
 
 /* The path of a file in the folder, freed by the caller. */
