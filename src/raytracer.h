@@ -88,6 +88,12 @@ typedef struct Fog {
     double distance; /* above 0; 0 is no fog */
 } Fog;
 
+/* The name of a file that a scene was read from beside its own, in a list. */
+typedef struct SceneFileName {
+    const struct SceneFileName *next;
+    char path[];
+} SceneFileName;
+
 /* What an author wrote. The arrays grow as things are added and belong to the scene. */
 typedef struct Scene {
     ImageSettings image;
@@ -103,6 +109,7 @@ typedef struct Scene {
     struct SceneMemory *memory; /* what allocateInScene gave */
     MeshData **meshes;          /* what keepMeshInScene was given */
     size_t meshCount, meshCapacity;
+    const SceneFileName *files; /* in the scene's memory */
 } Scene;
 
 /* A light with the handout's falloff, 1/d^2. */
@@ -296,13 +303,6 @@ LightShader lightReturned;
 Color3f traceRay(const SurfaceFinder *finder, const Ray *ray, const Media *media, int depth,
                  RayCounts *counts);
 
-/* The colour that leaves the point towards the ray's origin. */
-Color3f shade(const SurfaceFinder *finder, const SurfacePoint *point, const Ray *ray, const Media *media,
-              int depth, RayCounts *counts);
-
-/* The part of it that comes along mirrored and refracted rays, added to the color of all else. */
-Color3f addSecondaryRays(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
-                         const Ray *ray, const Media *media, int depth, Color3f color, RayCounts *counts);
 /* What the rays of a picture's pixels have in common. Nothing is owned. */
 typedef struct PixelRays {
     const Scene *scene;
@@ -329,6 +329,13 @@ Ray pixelRay(const PixelRays *rays, double x, double y, Media *media);
 /* The mean of a pixel's samples x samples rays, evenly spread; of one, through the middle. */
 Color3f tracePixel(const PixelRays *rays, const SurfaceFinder *finder, int x, int y, RayCounts *counts);
 
+/* The colour that leaves the point towards the ray's origin. */
+Color3f shade(const SurfaceFinder *finder, const SurfacePoint *point, const Ray *ray, const Media *media,
+              int depth, RayCounts *counts);
+
+/* The part of it that comes along mirrored and refracted rays, added to the color of all else. */
+Color3f addSecondaryRays(const SurfaceFinder *finder, const SurfacePoint *point, const Material *material,
+                         const Ray *ray, const Media *media, int depth, Color3f color, RayCounts *counts);
 
 /* What a ray sees that meets nothing, and what is left of a color seen through fog, with the fog's own. */
 Color3f backgroundColor(const Background *background, const Ray *ray);

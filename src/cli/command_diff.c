@@ -95,11 +95,9 @@ static int comparePictures(const Arguments *arguments, const Image *a, const Ima
 
 int runDiff(const Arguments *arguments)
 {
-    for (int i = 0; i < 2; i++) {
-        Status status = refuseOverwriting(arguments->output, arguments->operands[i]);
-        if (!statusIsOk(&status))
-            return printError(NULL, &status);
-    }
+    Status status = refuseOverwriting(arguments, NULL, arguments->output, CHOOSE_OUTPUT);
+    if (!statusIsOk(&status))
+        return printError(NULL, &status);
 
     /* Read both, so that one run names both when neither can be read. */
     Image a, b;

@@ -34,18 +34,11 @@ enum {
 
 /* ---- The file ---- */
 
-Text pathInReport(const char *folder, const char *name, const char *ending)
-{
-    Text path = {0};
-    textAppendFormat(&path, "%s%s%s%s", folder, folder[strlen(folder) - 1] == '/' ? "" : "/", name, ending);
-    return path;
-}
-
 Status openPage(ExplainPage *page, const char *folder, int threads)
 {
     page->threads = threads;
     page->status = statusOk();
-    Text path = pathInReport(folder, "index.html", "");
+    Text path = pathInFolder(folder, "index.html");
     Status status = path.failed ? statusOutOfMemory() : openOutput(&page->output, path.data);
     textFree(&path);
     return status;

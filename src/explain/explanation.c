@@ -3,9 +3,6 @@
 
 #include "base/json.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 /* ORDER Cause */
 static const char *const CAUSE_NAMES[CAUSE_COUNT] = {
     "gamma",          "exposure", "mirrored", "flipped", "channels",     "shift",
