@@ -350,7 +350,8 @@ uint32_t *findTransparentObjects(const Scene *scene, size_t *count, bool *failed
     return found;
 }
 
-Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point)
+/* Which of these objects, given by their numbers in the scene in rising order, contain the point. */
+static Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point)
 {
     Media media = {.count = 0};
     for (size_t i = 0; i < count && media.count < MAX_MEDIA; i++)

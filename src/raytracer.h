@@ -247,9 +247,6 @@ typedef struct Media {
     int count;
 } Media;
 
-/* Which of these objects, given by their numbers in the scene in rising order, contain the point. */
-Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point);
-
 /* The numbers of the scene's transparent objects in rising order, which the caller frees; NULL where there
  * are none, and with *failed set when memory runs out. */
 uint32_t *findTransparentObjects(const Scene *scene, size_t *count, bool *failed);

@@ -54,11 +54,7 @@ static int printResult(const Arguments *arguments, const Metrics *metrics, const
         jsonObject(&json);
         jsonMetrics(&json, metrics);
         jsonKeyBool(&json, "pass", verdict->pass);
-        jsonKey(&json, "reasons");
-        jsonArray(&json);
-        for (int i = 0; i < verdict->reasonCount; i++)
-            jsonString(&json, verdict->reasons[i]);
-        jsonEndArray(&json);
+        jsonReasons(&json, verdict);
         jsonEndObject(&json);
         jsonEnd(&json);
         return printData(&text);

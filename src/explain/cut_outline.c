@@ -22,7 +22,8 @@ DrawnPoint drawnPoint(const DrawingPlane *plane, Vector3D world)
                         plane->originY - dot(d, plane->up) * plane->scale};
 }
 
-Vector3D worldPointAt(const DrawingPlane *plane, DrawnPoint point)
+/* The point of the plane at a place of the drawing. */
+static Vector3D worldPointAt(const DrawingPlane *plane, DrawnPoint point)
 {
     double x = (point.x - plane->originX) / plane->scale, y = (plane->originY - point.y) / plane->scale;
     return addVectors(plane->origin, addVectors(multVector(plane->right, x), multVector(plane->up, y)));

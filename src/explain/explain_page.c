@@ -1,10 +1,8 @@
-/* explain_page.c - see explain_page.h.
- *
- * The style and the script are put into the read-only data as in compare/report_template.c.
- */
+/* explain_page.c - see explain_page.h. */
 #include "explain/explain_page.h"
 
 #include "base/cancel.h"
+#include "base/embed.h"
 #include "colors.h"
 #include "compare/difference.h"
 #include "compare/html.h"
@@ -15,13 +13,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define EMBED_FILE(symbol, path)                                                                             \
-    __asm__(".pushsection .rodata\n"                                                                         \
-            ".global " symbol "\n" symbol ":\n"                                                              \
-            ".incbin \"" path "\"\n"                                                                         \
-            ".byte 0\n"                                                                                      \
-            ".popsection\n")
 
 EMBED_FILE("explainStyle", "src/explain/explain_page.css");
 EMBED_FILE("explainScript", "src/explain/explain_page.js");
