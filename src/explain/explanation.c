@@ -64,19 +64,14 @@ void writeExplanationsText(const Explanations *explanations, const char *summary
         return;
     }
     textAppend(text, "difference: root mean square error ");
-    appendRounded(text, explanations->before, 3);
+    textAppendRounded(text, explanations->before, 3);
     textAppend(text, "\n");
     for (size_t i = 0; i < explanations->count; i++) {
         const Explanation *item = &explanations->items[i];
         textAppendFormat(text, "\n%zu. %s: %s\n   look at: %s\n", i + 1, causeName(item->cause),
                          textString(&item->text), textString(&item->where));
         textAppend(text, item->cause == CAUSE_UNKNOWN ? "   not explained: " : "   left after this: ");
-        appendRounded(text, item->residual, 3);
+        textAppendRounded(text, item->residual, 3);
         textAppend(text, "\n");
     }
-}
-
-void appendRounded(Text *text, double value, int digits)
-{
-    textAppendRounded(text, value, digits);
 }

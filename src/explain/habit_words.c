@@ -113,9 +113,9 @@ void appendHabitText(const HabitStudy *study, const Scene *scene, int number, Te
     case POV_HABIT_ANGLE:
         textAppend(text, "POV-Ray's `angle` is the one across the picture, and `fov` is the one from top to "
                          "bottom: ");
-        appendRounded(text, scene->camera.fov, 4);
+        textAppendRounded(text, scene->camera.fov, 4);
         textAppend(text, " degrees across where ");
-        appendRounded(text, horizontalAngle(scene), 4);
+        textAppendRounded(text, horizontalAngle(scene), 4);
         textAppend(text, " are meant.");
         break;
     case POV_HABIT_AREA_LIGHT:
@@ -170,7 +170,7 @@ void appendHabitRemedy(const HabitStudy *study, const Scene *scene, int number, 
         break;
     case POV_HABIT_ANGLE:
         textAppend(text, "write `camera { angle 2*degrees(atan2(tan(radians(");
-        appendRounded(text, scene->camera.fov, 15);
+        textAppendRounded(text, scene->camera.fov, 15);
         textAppend(text, ")/2)*image_width/image_height, 1)) }`");
         break;
     case POV_HABIT_AREA_LIGHT:
@@ -333,7 +333,7 @@ void appendHabitSum(const HabitStudy *study, Text *text)
     textAppend(text, " of ");
     textAppendFixed(text, native, DECIMALS);
     textAppend(text, ", left ");
-    appendRounded(text, matched->rmse, 2);
+    textAppendRounded(text, matched->rmse, 2);
     if (matched->rmse > HABIT_STEP)
         textAppendFormat(text, ", which is none of these habits; look at the pixel (%d, %d)",
                          matched->worst.x, matched->worst.y);
