@@ -216,7 +216,7 @@ setup:
 lint:
 	@tools/check-format.sh
 	@tools/check-includes.sh
-	@if command -v shellcheck >/dev/null; then shellcheck tools/*.sh .ci/run $(wildcard tests/suites/*.sh) bench/peers.sh notes/make-notes.sh; \
+	@if command -v shellcheck >/dev/null; then shellcheck tools/*.sh .ci/run $(wildcard tests/suites/*.sh) tests/property/build.sh bench/peers.sh notes/make-notes.sh; \
 	else echo 'shellcheck is not installed: the shell scripts were not checked.'; fi
 
 ## format: lay out all C files with clang-format 14

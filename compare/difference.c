@@ -11,10 +11,10 @@
 #include "compare/difference.h"
 
 #include "base/cancel.h"
+#include "base/text.h"
 #include "compare/colormap.h"
 #include "compare/lettering.h"
 #include "compare/metrics.h"
-#include "compare/rounding.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -38,10 +38,7 @@ static bool canEmbed(const Page *page)
     size_t total = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         struct stat info;
-        Text path = {0};
-        textAppend(&path, page->folder);
-        textAppend(&path, "/");
-        textAppend(&path, names[i] != NULL ? names[i] : "");
+        Text path = pathInFolder(page->folder, names[i] != NULL ? names[i] : "");
         /* A file that cannot be looked at is left to writePicture, which says why. */
         if (names[i] != NULL && stat(textString(&path), &info) == 0)
             total += (size_t)info.st_size;

@@ -341,12 +341,9 @@ static void appendMetricMark(const Page *page, Text *text)
 /* Write a picture's file in base64. */
 static void writePicture(Page *page, const char *fileName)
 {
-    Text path = {0};
+    Text path = pathInFolder(page->folder, fileName);
     char *data = NULL;
     size_t length = 0;
-    textAppend(&path, page->folder);
-    textAppend(&path, "/");
-    textAppend(&path, fileName);
     page->status = path.failed ? statusOutOfMemory()
                                : readWholeFile(textString(&path), MAX_EMBEDDED_BYTES, &data, &length);
     textFree(&path);

@@ -7,7 +7,7 @@
  */
 #include "compare/metrics.h"
 
-#include "compare/rounding.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,8 +1,6 @@
 /* words.c - results as words and numbers; see words.h. */
 #include "compare/words.h"
 
-#include "compare/rounding.h"
-
 #include <math.h>
 
 SceneOutcome findSceneOutcome(const SceneResult *result)
@@ -84,12 +82,6 @@ void textAppendCount(Text *text, size_t value, const char *separator)
     }
     textAppendCount(text, value / 1000, separator);
     textAppendFormat(text, "%s%03zu", separator, value % 1000);
-}
-
-void textAppendRounded(Text *text, double value, int digits)
-{
-    char buffer[NUMBER_TEXT_SIZE];
-    textAppend(text, formatRounded(buffer, value, digits));
 }
 
 /* Whether value is a multiple of 1/maxSample, but for rounding in double arithmetic. */

@@ -35,9 +35,6 @@ void textAppendRunVerdict(Text *text, const SceneResult *results, size_t count);
 /* An integer; with separator, which goes between groups of three digits, or NULL. */
 void textAppendCount(Text *text, size_t value, const char *separator);
 
-/* value rounded to this many significant digits, 1 to 15: "0.00123", "4.2e-07"; "nan", "inf". */
-void textAppendRounded(Text *text, double value, int digits);
-
 /* The largest sample that stored values as these can come from: 255 where all of them are multiples of
  * 1/255, else 65535 where they are multiples of that, else 0. */
 unsigned findMaxSample(const Metrics *metrics);

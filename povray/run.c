@@ -53,6 +53,17 @@ static char *searchPath(const char *program)
     return NULL;
 }
 
+PovraySettings createPovraySettings(const Scene *scene, int threads)
+{
+    return (PovraySettings){.width = scene->image.width,
+                            .height = scene->image.height,
+                            .bitDepth = scene->image.bitDepth,
+                            .encoding = scene->image.encoding,
+                            .samples = scene->render.samples,
+                            .threads = threads,
+                            .timeoutSeconds = POVRAY_TIMEOUT};
+}
+
 Status findPovray(void)
 {
     char *program = searchPath("povray");

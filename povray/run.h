@@ -4,8 +4,13 @@
 
 #include "base/status.h"
 #include "image/image.h"
+#include "raytracer.h"
 
 #include <stdbool.h>
+
+enum {
+    POVRAY_TIMEOUT = 600 /* seconds that a picture may take which someone waits for */
+};
 
 typedef struct PovraySettings {
     int width, height;
@@ -18,6 +23,9 @@ typedef struct PovraySettings {
     bool onePixel;         /* draw only the pixel (x, y), from 0 at the top left; all others are black */
     int x, y;
 } PovraySettings;
+
+/* The scene's picture as the scene says, with POVRAY_TIMEOUT. */
+PovraySettings createPovraySettings(const Scene *scene, int threads);
 
 /* Whether there is a program povray on the PATH; STATUS_POVRAY with the command that installs it. */
 Status findPovray(void);

@@ -67,6 +67,24 @@ static inline bool colorIsBlack(Color3f c)
     return c.r == 0 && c.g == 0 && c.b == 0;
 }
 
+/* Colours that are added up, in double, for their mean. */
+typedef struct ColorSum {
+    double r, g, b;
+} ColorSum;
+
+static inline void addToSum(ColorSum *sum, Color3f color)
+{
+    sum->r += (double)color.r;
+    sum->g += (double)color.g;
+    sum->b += (double)color.b;
+}
+
+/* The sum divided by count, which is not 0, and rounded to float. */
+static inline Color3f meanColor(ColorSum sum, double count)
+{
+    return (Color3f){(float)(sum.r / count), (float)(sum.g / count), (float)(sum.b / count)};
+}
+
 /* Each component clamped to 0..1 (handout, exercise 03a); NaN becomes 0. */
 ColorRGB clampColor(Color3f c);
 

@@ -350,13 +350,62 @@ uint32_t *findTransparentObjects(const Scene *scene, size_t *count, bool *failed
     return found;
 }
 
-Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point)
+/* Which of these objects, given by their numbers in the scene in rising order, contain the point. */
+static Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point)
 {
     Media media = {.count = 0};
     for (size_t i = 0; i < count && media.count < MAX_MEDIA; i++)
         if (objectContains(&scene->objects[objects[i]], point))
             media.objects[media.count++] = &scene->objects[objects[i]];
     return media;
+}
+
+/* ---- One pixel ---- */
+
+PixelRays createPixelRays(const Scene *scene, int width, int height, const uint32_t *transparent,
+                          size_t transparentCount)
+{
+    return (PixelRays){.scene = scene,
+                       .width = width,
+                       .height = height,
+                       .frame = cameraFrame(&scene->camera, width, height),
+                       .transparent = transparent,
+                       .transparentCount = transparentCount,
+                       .media = mediaAmong(scene, transparent, transparentCount, scene->camera.position)};
+}
+
+Media cameraMedia(const PixelRays *rays, const Ray *ray)
+{
+    if (rays->frame.projection == PROJECTION_PERSPECTIVE)
+        return rays->media;
+    return mediaAmong(rays->scene, rays->transparent, rays->transparentCount, ray->origin);
+}
+
+Ray pixelRay(const PixelRays *rays, double x, double y, Media *media)
+{
+    if (rays->movePoint != NULL)
+        rays->movePoint(rays->moveContext, rays->width, rays->height, &x, &y);
+    Ray ray = cameraRay(&rays->frame, x, y, rays->width, rays->height);
+    *media = cameraMedia(rays, &ray);
+    return ray;
+}
+
+Color3f tracePixel(const PixelRays *rays, const SurfaceFinder *finder, int x, int y, RayCounts *counts)
+{
+    int n = rays->scene->render.samples;
+    ColorSum sum = {0};
+    for (int j = 0; j < n; j++) {
+        for (int i = 0; i < n; i++) {
+            Media media;
+            Ray ray = pixelRay(rays, x + (i + 0.5) / n, y + (j + 0.5) / n, &media);
+            counts->primary++;
+            Color3f color = traceRay(finder, &ray, &media, 1, counts);
+            if (n == 1)
+                return color;
+            addToSum(&sum, color);
+        }
+    }
+    return meanColor(sum, (double)n * n);
 }
 
 /* ---- The picture ---- */
@@ -367,43 +416,13 @@ enum {
 
 typedef struct Rendering {
     const SurfaceFinder *finder;
-    const uint32_t *transparent; /* numbers of the transparent objects */
-    size_t transparentCount;
+    PixelRays rays;
     Framebuffer *framebuffer;
     const RenderOptions *options;
-    CameraFrame frame;
-    Media media; /* at the position of a perspective camera */
     size_t tileColumns, tileCount;
     atomic_size_t tilesDone;
     _Atomic uint64_t primary, shadow, secondary;
 } Rendering;
-
-/* The mean of samples x samples rays, evenly spread; of one, through the middle. */
-static Color3f renderPixel(const Rendering *rendering, int x, int y, RayCounts *counts)
-{
-    const Scene *scene = rendering->finder->scene;
-    const Framebuffer *framebuffer = rendering->framebuffer;
-    int n = scene->render.samples;
-    double sum[3] = {0, 0, 0};
-    for (int j = 0; j < n; j++) {
-        for (int i = 0; i < n; i++) {
-            Ray ray = cameraRay(&rendering->frame, x + (i + 0.5) / n, y + (j + 0.5) / n, framebuffer->width,
-                                framebuffer->height);
-            Media media = rendering->media;
-            if (rendering->frame.projection != PROJECTION_PERSPECTIVE)
-                media = mediaAmong(scene, rendering->transparent, rendering->transparentCount, ray.origin);
-            counts->primary++;
-            Color3f color = traceRay(rendering->finder, &ray, &media, 1, counts);
-            if (n == 1)
-                return color;
-            sum[0] += (double)color.r;
-            sum[1] += (double)color.g;
-            sum[2] += (double)color.b;
-        }
-    }
-    double count = (double)n * n;
-    return createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
-}
 
 /* Draw one square of the picture. */
 static void renderTile(void *context, size_t number)
@@ -418,7 +437,7 @@ static void renderTile(void *context, size_t number)
     RayCounts counts = {0};
     for (int y = top; y < bottom; y++)
         for (int x = left; x < right && !cancelRequested(); x++)
-            putLinearPixel(framebuffer, x, y, renderPixel(rendering, x, y, &counts));
+            putLinearPixel(framebuffer, x, y, tracePixel(&rendering->rays, rendering->finder, x, y, &counts));
 
     rendering->primary += counts.primary;
     rendering->shadow += counts.shadow;
@@ -441,12 +460,10 @@ Status renderWithFinder(const SurfaceFinder *finder, Framebuffer *framebuffer, c
     if (failed)
         return statusOutOfMemory();
     Rendering rendering = {.finder = finder,
-                           .transparent = transparent,
-                           .transparentCount = transparentCount,
+                           .rays = createPixelRays(scene, framebuffer->width, framebuffer->height,
+                                                   transparent, transparentCount),
                            .framebuffer = framebuffer,
                            .options = options,
-                           .frame = cameraFrame(&scene->camera, framebuffer->width, framebuffer->height),
-                           .media = mediaAmong(scene, transparent, transparentCount, scene->camera.position),
                            .tileColumns = columns,
                            .tileCount = columns * rows};
     Status status = runTasks(rendering.tileCount, options->threads, renderTile, &rendering);

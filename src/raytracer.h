@@ -88,6 +88,12 @@ typedef struct Fog {
     double distance; /* above 0; 0 is no fog */
 } Fog;
 
+/* The name of a file that a scene was read from beside its own, in a list. */
+typedef struct SceneFileName {
+    const struct SceneFileName *next;
+    char path[];
+} SceneFileName;
+
 /* What an author wrote. The arrays grow as things are added and belong to the scene. */
 typedef struct Scene {
     ImageSettings image;
@@ -103,6 +109,7 @@ typedef struct Scene {
     struct SceneMemory *memory; /* what allocateInScene gave */
     MeshData **meshes;          /* what keepMeshInScene was given */
     size_t meshCount, meshCapacity;
+    const SceneFileName *files; /* in the scene's memory */
 } Scene;
 
 /* A light with the handout's falloff, 1/d^2. */
@@ -240,9 +247,6 @@ typedef struct Media {
     int count;
 } Media;
 
-/* Which of these objects, given by their numbers in the scene in rising order, contain the point. */
-Media mediaAmong(const Scene *scene, const uint32_t *objects, size_t count, Vector3D point);
-
 /* The numbers of the scene's transparent objects in rising order, which the caller frees; NULL where there
  * are none, and with *failed set when memory runs out. */
 uint32_t *findTransparentObjects(const Scene *scene, size_t *count, bool *failed);
@@ -295,6 +299,32 @@ LightShader lightReturned;
 /* The colour that comes along the ray, number depth in its chain (the camera's is 1), within these media. */
 Color3f traceRay(const SurfaceFinder *finder, const Ray *ray, const Media *media, int depth,
                  RayCounts *counts);
+
+/* What the rays of a picture's pixels have in common. Nothing is owned. */
+typedef struct PixelRays {
+    const Scene *scene;
+    int width, height;
+    CameraFrame frame;
+    const uint32_t *transparent; /* numbers of the transparent objects */
+    size_t transparentCount;
+    Media media; /* at the position of a perspective camera */
+    /* NULL, or puts in place of a point of the picture, in pixels, another one to look through. */
+    void (*movePoint)(const void *context, int width, int height, double *x, double *y);
+    const void *moveContext;
+} PixelRays;
+
+/* transparent: as findTransparentObjects gives them. */
+PixelRays createPixelRays(const Scene *scene, int width, int height, const uint32_t *transparent,
+                          size_t transparentCount);
+
+/* The transparent objects that a ray of the camera starts in. */
+Media cameraMedia(const PixelRays *rays, const Ray *ray);
+
+/* The ray through a point of the picture (see cameraRay), and the media where it starts. */
+Ray pixelRay(const PixelRays *rays, double x, double y, Media *media);
+
+/* The mean of a pixel's samples x samples rays, evenly spread; of one, through the middle. */
+Color3f tracePixel(const PixelRays *rays, const SurfaceFinder *finder, int x, int y, RayCounts *counts);
 
 /* The colour that leaves the point towards the ray's origin. */
 Color3f shade(const SurfaceFinder *finder, const SurfacePoint *point, const Ray *ray, const Media *media,

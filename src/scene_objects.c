@@ -41,6 +41,7 @@ void freeScene(Scene *scene)
     free(scene->meshes);
     scene->meshes = NULL;
     scene->meshCount = scene->meshCapacity = 0;
+    scene->files = NULL;
     while (scene->memory != NULL) {
         SceneMemory *next = scene->memory->next;
         free(scene->memory);

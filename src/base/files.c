@@ -491,6 +491,14 @@ static bool isFolder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+Text pathInFolder(const char *folder, const char *name)
+{
+    Text path = {0};
+    size_t length = strlen(folder);
+    textAppendFormat(&path, "%s%s%s", folder, length > 0 && folder[length - 1] == '/' ? "" : "/", name);
+    return path;
+}
+
 /* Make one folder whose parent exists. Returns an errno value. */
 static int makeFolder(const char *path)
 {

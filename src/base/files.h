@@ -11,6 +11,7 @@
 #define ECLAIRAGE_BASE_FILES_H
 
 #include "base/status.h"
+#include "base/text.h"
 
 #include <stddef.h>
 #include <stdio.h>
@@ -56,6 +57,9 @@ Status makeTemporaryFolder(char **path);
 /* Remove a folder and all in it, not following links; what cannot be removed is left. Does nothing to
  * what is not a folder. Works after requestCancel() too. */
 void removeFolder(const char *path);
+
+/* The path of a file in a folder, freed by the caller; may have failed for want of memory. */
+Text pathInFolder(const char *folder, const char *name);
 
 /* Make a folder and its parents; an existing folder is fine. */
 Status makeFolders(const char *path);

@@ -79,10 +79,35 @@ void jsonEndArray(JsonWriter *json)
     shut(json, "]");
 }
 
+/* Append value as a JSON string, quotes included. */
+static void appendQuoted(Text *text, const char *value)
+{
+    textAppend(text, "\"");
+    for (const unsigned char *s = (const unsigned char *)value; *s != '\0';) {
+        size_t length = utf8Length((const char *)s);
+        if (length == 0) {
+            textAppend(text, "\xEF\xBF\xBD");
+            length = 1;
+        } else if (*s == '"' || *s == '\\') {
+            textAppendFormat(text, "\\%c", *s);
+        } else if (*s == '\n') {
+            textAppend(text, "\\n");
+        } else if (*s == '\t') {
+            textAppend(text, "\\t");
+        } else if (*s < 0x20 || *s == 0x7F) {
+            textAppendFormat(text, "\\u%04x", *s);
+        } else {
+            textAppendBytes(text, s, length);
+        }
+        s += length;
+    }
+    textAppend(text, "\"");
+}
+
 void jsonKey(JsonWriter *json, const char *key)
 {
     separate(json);
-    textAppendJsonString(json->text, key);
+    appendQuoted(json->text, key);
     textAppend(json->text, ": ");
     json->afterKey = true;
 }
@@ -90,7 +115,7 @@ void jsonKey(JsonWriter *json, const char *key)
 void jsonString(JsonWriter *json, const char *value)
 {
     separate(json);
-    textAppendJsonString(json->text, value);
+    appendQuoted(json->text, value);
 }
 
 void jsonNumber(JsonWriter *json, double value)
@@ -147,28 +172,4 @@ void jsonKeyBool(JsonWriter *json, const char *key, bool value)
 {
     jsonKey(json, key);
     jsonBool(json, value);
-}
-
-void textAppendJsonString(Text *text, const char *value)
-{
-    textAppend(text, "\"");
-    for (const unsigned char *s = (const unsigned char *)value; *s != '\0';) {
-        size_t length = utf8Length((const char *)s);
-        if (length == 0) {
-            textAppend(text, "\xEF\xBF\xBD");
-            length = 1;
-        } else if (*s == '"' || *s == '\\') {
-            textAppendFormat(text, "\\%c", *s);
-        } else if (*s == '\n') {
-            textAppend(text, "\\n");
-        } else if (*s == '\t') {
-            textAppend(text, "\\t");
-        } else if (*s < 0x20 || *s == 0x7F) {
-            textAppendFormat(text, "\\u%04x", *s);
-        } else {
-            textAppendBytes(text, s, length);
-        }
-        s += length;
-    }
-    textAppend(text, "\"");
 }

@@ -46,7 +46,4 @@ void jsonKeyNumber(JsonWriter *json, const char *key, double value);
 void jsonKeyInteger(JsonWriter *json, const char *key, int64_t value);
 void jsonKeyBool(JsonWriter *json, const char *key, bool value);
 
-/* Append value as a JSON string, quotes included. */
-void textAppendJsonString(Text *text, const char *value);
-
 #endif

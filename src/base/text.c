@@ -70,6 +70,27 @@ void textAppendDouble(Text *text, double value)
     textAppend(text, formatDouble(buffer, value));
 }
 
+void textAppendRounded(Text *text, double value, int digits)
+{
+    char buffer[NUMBER_TEXT_SIZE];
+    textAppend(text, formatRounded(buffer, value, digits));
+}
+
+void textAppendFixed(Text *text, double value, int decimals)
+{
+    if (!isfinite(value)) {
+        textAppendDouble(text, value);
+        return;
+    }
+    long long unit = 1;
+    for (int i = 0; i < decimals; i++)
+        unit *= 10;
+    long long scaled = llround(value * (double)unit);
+    textAppendFormat(text, "%s%lld", scaled < 0 ? "-" : "", llabs(scaled) / unit);
+    if (decimals > 0)
+        textAppendFormat(text, ".%0*lld", decimals, llabs(scaled) % unit);
+}
+
 const char *textString(const Text *text)
 {
     return text->data != NULL ? text->data : "";
@@ -216,4 +237,22 @@ char *formatDouble(char buffer[NUMBER_TEXT_SIZE], double value)
 char *formatFloat(char buffer[NUMBER_TEXT_SIZE], float value)
 {
     return formatShortest(buffer, (double)value, 6, 9, true);
+}
+
+/* The value becomes an integer of so many digits and goes back by an exact power of ten, which gives the
+ * double nearest to a short decimal; formatDouble finds that decimal. */
+char *formatRounded(char buffer[NUMBER_TEXT_SIZE], double value, int digits)
+{
+    enum {
+        EXACT_POWERS = 22 /* up to 10^22 the powers of ten are doubles */
+    };
+    if (value == 0)
+        return formatDouble(buffer, 0);
+    if (!isfinite(value))
+        return formatDouble(buffer, value);
+    int exponent = (int)floor(log10(fabs(value))) + 1 - digits;
+    if (abs(exponent) > EXACT_POWERS)
+        return formatDouble(buffer, value);
+    double power = pow(10, abs(exponent));
+    return formatDouble(buffer, exponent < 0 ? round(value * power) / power : round(value / power) * power);
 }

@@ -27,6 +27,14 @@ void textAppendFormat(Text *text, const char *format, ...) __attribute__((format
  * for what is not finite. */
 void textAppendDouble(Text *text, double value);
 
+/* Append the value rounded to so many significant digits, 1 to 17, as short as that can be: "0.0123",
+ * "120000", "4.58e-05"; "0" for both zeros; "nan", "inf", "-inf". */
+void textAppendRounded(Text *text, double value, int digits);
+
+/* Append the value rounded to so many digits behind the point, 0 to 9: "-0.5000"; no minus where that is
+ * zero; below 10^9. "nan", "inf", "-inf". */
+void textAppendFixed(Text *text, double value, int decimals);
+
 /* The string, never NULL; owned by the text. */
 const char *textString(const Text *text);
 
@@ -43,6 +51,9 @@ enum {
 
 /* What textAppendDouble appends, into a buffer of NUMBER_TEXT_SIZE bytes. Returns buffer. */
 char *formatDouble(char buffer[NUMBER_TEXT_SIZE], double value);
+
+/* What textAppendRounded appends. */
+char *formatRounded(char buffer[NUMBER_TEXT_SIZE], double value, int digits);
 
 /* The shortest decimal number that reads back as exactly this float. */
 char *formatFloat(char buffer[NUMBER_TEXT_SIZE], float value);

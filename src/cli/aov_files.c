@@ -22,9 +22,9 @@ static bool isWanted(const AovFiles *files, Aov aov)
     return (files->set & 1u << aov) != 0;
 }
 
-Status prepareAovFiles(unsigned set, const char *output, const char *scenePath, AovFiles *files)
+Status prepareAovFiles(const Arguments *arguments, const Scene *scene, const char *output, AovFiles *files)
 {
-    *files = (AovFiles){.set = set, .farthest = NAN};
+    *files = (AovFiles){.set = arguments->aovs, .farthest = NAN};
     size_t length = strlen(output);
     size_t stem = length - strlen(baseName(output));
     if (length > stem + 4 && strcasecmp(output + length - 4, ".png") == 0)
@@ -37,10 +37,9 @@ Status prepareAovFiles(unsigned set, const char *output, const char *scenePath, 
         textAppendFormat(name, "-%s.png", aovName(aov));
         if (name->failed)
             return statusOutOfMemory();
-        if (isSameFile(name->data, scenePath))
-            return statusError(
-                STATUS_USAGE, "%s would overwrite the scene itself: choose another name with -o", name->data);
-        Status status = probeOutput(name->data);
+        Status status = refuseOverwriting(arguments, scene, name->data, CHOOSE_OUTPUT);
+        if (statusIsOk(&status))
+            status = probeOutput(name->data);
         if (!statusIsOk(&status))
             return status;
     }

@@ -17,8 +17,8 @@ typedef struct AovFiles {
 } AovFiles;
 
 /* Name the files by the picture's, which is output, and see before the long work whether each can be written.
- * STATUS_USAGE when one would overwrite the scene. Freed by the caller with freeAovFiles in any case. */
-Status prepareAovFiles(unsigned set, const char *output, const char *scenePath, AovFiles *files);
+ * STATUS_USAGE when one would overwrite what is read. Freed by the caller with freeAovFiles in any case. */
+Status prepareAovFiles(const Arguments *arguments, const Scene *scene, const char *output, AovFiles *files);
 void freeAovFiles(AovFiles *files);
 
 /* Draw and write them, saying each that is there. The first failure ends it, and its message names the file.

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/compare_job.h"
 #include "cli/drawing.h"
+#include "cli/report_folder.h"
 #include "cli/scene_input.h"
 #include "cli/shell_words.h"
 #include "cli/terminal.h"
@@ -308,11 +309,7 @@ static int reportResults(const Run *run, const SceneResult *results)
     Text json = {0}, command = {0};
     writeResultsJson(results, run->count, &json);
     appendCommandLine(&command, arguments, NULL, NULL);
-    Text resultsPath = pathInFolder(run->folder, "results.json");
-    Status status = json.failed || resultsPath.failed
-                        ? statusOutOfMemory()
-                        : writeWholeFile(resultsPath.data, textString(&json), json.length);
-    textFree(&resultsPath);
+    Status status = writeResultsFile(run->folder, &json);
     if (statusIsOk(&status))
         status = command.failed ? statusOutOfMemory()
                                 : writeReport(run->folder, results, run->count, textString(&command));
@@ -322,15 +319,8 @@ static int reportResults(const Run *run, const SceneResult *results)
     Text words = {0};
     if (!arguments->json)
         writeResultsText(results, run->count, colorOnOutput(), &words);
-    int printed = printData(arguments->json ? &json : &words);
-    textFree(&json);
-    if (written == 0) {
-        Text page = pathInFolder(run->folder, "index.html");
-        printNote("the report is %s", textString(&page));
-        textFree(&page);
-    }
-    highest = written > highest ? written : highest;
-    return printed > highest ? printed : highest;
+    int code = printResults(arguments, run->folder, written, &json, &words);
+    return code > highest ? code : highest;
 }
 
 static void freeRun(Run *run)
@@ -349,7 +339,7 @@ static void freeRun(Run *run)
     pthread_mutex_destroy(&run->printing);
 }
 
-/* Give each scene its names. */
+/* Give each scene its names, and make the folder. */
 static Status prepareJobs(Run *run)
 {
     for (size_t i = 0; i < run->count; i++) {
@@ -371,7 +361,8 @@ static Status prepareJobs(Run *run)
                                     .command = job->command.data,
                                     .perTerm = run->arguments->perTerm};
     }
-    return makeFolders(run->folder);
+    Status status = protectInputsFromPage(run->arguments, NULL, run->folder);
+    return statusIsOk(&status) ? makeFolders(run->folder) : status;
 }
 
 int runCompare(const Arguments *arguments)
@@ -392,7 +383,8 @@ int runCompare(const Arguments *arguments)
                .folder = arguments->folder != NULL ? arguments->folder : DEFAULT_FOLDER,
                .jobs = calloc(count, sizeof(Job)),
                .termsAtOnce = termsAtOnce,
-               .settings = {.engine = chosenEngine(arguments),
+               .settings = {.arguments = arguments,
+                            .engine = chosenEngine(arguments),
                             .threads = threads,
                             .povrayThreads = threads > povrays ? threads / povrays : 1}};
     run.settings.folder = run.folder;

@@ -54,11 +54,7 @@ static int printResult(const Arguments *arguments, const Metrics *metrics, const
         jsonObject(&json);
         jsonMetrics(&json, metrics);
         jsonKeyBool(&json, "pass", verdict->pass);
-        jsonKey(&json, "reasons");
-        jsonArray(&json);
-        for (int i = 0; i < verdict->reasonCount; i++)
-            jsonString(&json, verdict->reasons[i]);
-        jsonEndArray(&json);
+        jsonReasons(&json, verdict);
         jsonEndObject(&json);
         jsonEnd(&json);
         return printData(&text);
@@ -95,11 +91,9 @@ static int comparePictures(const Arguments *arguments, const Image *a, const Ima
 
 int runDiff(const Arguments *arguments)
 {
-    for (int i = 0; i < 2; i++) {
-        Status status = refuseOverwriting(arguments->output, arguments->operands[i]);
-        if (!statusIsOk(&status))
-            return printError(NULL, &status);
-    }
+    Status status = refuseOverwriting(arguments, NULL, arguments->output, CHOOSE_OUTPUT);
+    if (!statusIsOk(&status))
+        return printError(NULL, &status);
 
     /* Read both, so that one run names both when neither can be read. */
     Image a, b;

@@ -23,18 +23,16 @@ int runPov(const Arguments *arguments)
 {
     const char *path = arguments->operands[0];
     const char *output = arguments->output != NULL ? arguments->output : "-";
-    Status status = refuseOverwriting(output, path);
-    if (!statusIsOk(&status))
-        return printError(NULL, &status);
-
     Scene scene;
-    status = openSceneAloud(path, arguments, &scene);
+    Status status = openSceneAloud(path, arguments, &scene);
     if (!statusIsOk(&status))
         return (int)status.code;
 
     Text pov = {0}, name = {0};
     appendPovName(path, output, &name);
-    status = exportPov(&scene, textString(&name), &pov);
+    status = refuseOverwriting(arguments, &scene, output, CHOOSE_OUTPUT);
+    if (statusIsOk(&status))
+        status = exportPov(&scene, textString(&name), &pov);
     freeScene(&scene);
     textFree(&name);
     if (statusIsOk(&status) && pov.failed)

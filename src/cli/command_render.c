@@ -97,12 +97,8 @@ int runRender(const Arguments *arguments)
 {
     double start = secondsNow();
     const char *path = arguments->operands[0];
-    Status status = refuseOverwriting(arguments->output, path);
-    if (!statusIsOk(&status))
-        return printError(NULL, &status);
-
     Scene scene;
-    status = openSceneAloud(path, arguments, &scene);
+    Status status = openSceneAloud(path, arguments, &scene);
     if (!statusIsOk(&status))
         return (int)status.code;
 
@@ -113,10 +109,13 @@ int runRender(const Arguments *arguments)
     if (arguments->output == NULL)
         appendNameBeside(path, ".png", &defaultName);
     const char *output = arguments->output != NULL ? arguments->output : textString(&defaultName);
-    status = defaultName.failed ? statusOutOfMemory() : probeOutput(output);
+    status = defaultName.failed ? statusOutOfMemory()
+                                : refuseOverwriting(arguments, &scene, output, CHOOSE_OUTPUT);
+    if (statusIsOk(&status))
+        status = probeOutput(output);
     AovFiles aovs = {.set = 0};
     if (statusIsOk(&status))
-        status = prepareAovFiles(arguments->aovs, output, path, &aovs);
+        status = prepareAovFiles(arguments, &scene, output, &aovs);
     if (statusIsOk(&status))
         status = renderToFile(&scene, path, chosenEngine(arguments), threads, output, &phases, &rays);
     phases.total = secondsSince(start);

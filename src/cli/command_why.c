@@ -75,7 +75,8 @@ static int tellPixel(const Scene *scene, const Arguments *arguments)
         status = readCoordinate("Y", arguments->operands[2], scene->image.height, scene, &y);
     if (!statusIsOk(&status))
         return printError(NULL, &status);
-    if (arguments->svg != NULL)
+    status = refuseOverwriting(arguments, scene, arguments->svg, "choose another name with --svg");
+    if (statusIsOk(&status) && arguments->svg != NULL)
         status = probeOutput(arguments->svg);
     PixelStory story;
     if (statusIsOk(&status))
@@ -98,11 +99,8 @@ static int tellPixel(const Scene *scene, const Arguments *arguments)
 int runWhy(const Arguments *arguments)
 {
     const char *path = arguments->operands[0];
-    Status status = refuseOverwriting(arguments->svg, path);
-    if (!statusIsOk(&status))
-        return printError(NULL, &status);
     Scene scene;
-    status = openSceneAloud(path, arguments, &scene);
+    Status status = openSceneAloud(path, arguments, &scene);
     if (!statusIsOk(&status))
         return (int)status.code;
     int code = tellPixel(&scene, arguments);

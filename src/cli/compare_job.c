@@ -3,18 +3,13 @@
 
 #include "base/files.h"
 #include "cli/drawing.h"
+#include "cli/report_folder.h"
 #include "cli/scene_input.h"
 #include "cli/terminal.h"
 #include "compare/difference.h"
 #include "image/image.h"
 #include "povray/export.h"
 #include "povray/run.h"
-
-#include <string.h>
-
-enum {
-    POVRAY_TIMEOUT = 600 /* seconds for one picture */
-};
 
 /* Both pictures of a scene and their difference. */
 typedef struct Pictures {
@@ -38,23 +33,14 @@ void freePictureFiles(PictureFiles *files)
     textFree(&files->pov);
 }
 
-Text pathInFolder(const char *folder, const char *name)
+/* See that none of the files is written over what is read. */
+static Status protectFrom(const CompareSettings *settings, const PictureFiles *files, const Scene *scene)
 {
-    Text path = {0};
-    bool endsInSlash = folder[strlen(folder) - 1] == '/';
-    textAppendFormat(&path, "%s%s%s", folder, endsInSlash ? "" : "/", name);
-    return path;
-}
-
-/* STATUS_USAGE when the .pov would be written over its scene. */
-static Status protectScene(const CompareSettings *settings, const Text *pov, const char *scenePath)
-{
-    Text path = pathInFolder(settings->folder, textString(pov));
-    bool isScene = isSameFile(textString(&path), scenePath);
-    textFree(&path);
-    return isScene ? statusError(STATUS_USAGE, "the POV-Ray scene would overwrite the scene itself: choose "
-                                               "another folder with --out, or end its name in .yaml")
-                   : statusOk();
+    const Text *const names[] = {&files->ours, &files->povray, &files->difference, &files->pov};
+    Status status = statusOk();
+    for (size_t i = 0; i < sizeof names / sizeof *names && statusIsOk(&status); i++)
+        status = protectInputs(settings->arguments, scene, settings->folder, textString(names[i]));
+    return status;
 }
 
 static Status writePov(const CompareSettings *settings, const Text *name, const Text *pov)
@@ -77,35 +63,19 @@ static Status writePicture(const CompareSettings *settings, const Text *name, co
 static Status drawOurs(const CompareSettings *settings, const Scene *scene, const char *scenePath,
                        Image *ours, PictureResult *result, Text *messages)
 {
-    Framebuffer *framebuffer = createFramebuffer(scene->image.width, scene->image.height);
-    if (framebuffer == NULL)
-        return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
-                           scene->image.height);
     pthread_mutex_lock(settings->turn);
-    RenderOptions options = {.threads = settings->threads};
-    DrawingSeconds seconds;
-    Status status = drawScene(scene, settings->engine, framebuffer, &options, NULL, &seconds);
+    DrawingSeconds seconds = {0};
+    Status status =
+        drawImage(scene, scenePath, settings->engine, settings->threads, ours, &seconds, messages);
     result->renderSeconds = seconds.compile + seconds.trace;
     pthread_mutex_unlock(settings->turn);
-    if (statusIsOk(&status)) {
-        warnOfNonFinitePixels(framebuffer, scenePath, messages);
-        status = imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding,
-                                      settings->threads, ours);
-    }
-    freeFramebuffer(framebuffer);
     return status;
 }
 
 static Status drawWithPovray(const CompareSettings *settings, const Scene *scene, const Text *pov,
                              Image *povray, PictureResult *result)
 {
-    PovraySettings povraySettings = {.width = scene->image.width,
-                                     .height = scene->image.height,
-                                     .bitDepth = scene->image.bitDepth,
-                                     .encoding = scene->image.encoding,
-                                     .samples = scene->render.samples,
-                                     .threads = settings->povrayThreads,
-                                     .timeoutSeconds = POVRAY_TIMEOUT};
+    PovraySettings povraySettings = createPovraySettings(scene, settings->povrayThreads);
     double start = secondsNow();
     Status status = runPovray(textString(pov), &povraySettings, povray);
     result->povraySeconds = secondsSince(start);
@@ -137,7 +107,7 @@ Status comparePicture(const CompareSettings *settings, const Scene *scene, const
     Pictures pictures = {0};
     Status status = exportPov(scene, textString(&files->pov), &pov);
     if (statusIsOk(&status))
-        status = protectScene(settings, &files->pov, scenePath);
+        status = protectFrom(settings, files, scene);
     if (statusIsOk(&status))
         status = writePov(settings, &files->pov, &pov);
     if (statusIsOk(&status))

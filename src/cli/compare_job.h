@@ -12,6 +12,7 @@
 
 /* What is the same for all pictures of a run. */
 typedef struct CompareSettings {
+    const Arguments *arguments;
     const char *folder; /* of the report */
     Engine engine;
     int threads, povrayThreads;
@@ -34,11 +35,8 @@ typedef struct PictureResult {
     double renderSeconds, povraySeconds, compareSeconds;
 } PictureResult;
 
-/* The path of a file in the report's folder, freed by the caller. */
-Text pathInFolder(const char *folder, const char *name);
-
 /* Draw the scene twice, measure by its tolerance, and write the files; warnings are appended to messages. The
- * pictures are written only when all went well. STATUS_USAGE when the .pov would overwrite the scene's file.
+ * pictures are written only when all went well. STATUS_USAGE when a file would overwrite one that is read.
  */
 Status comparePicture(const CompareSettings *settings, const Scene *scene, const char *scenePath,
                       const PictureFiles *files, PictureResult *result, Text *messages);

@@ -1,6 +1,7 @@
 /* drawing.c - see drawing.h. */
 #include "cli/drawing.h"
 
+#include "cli/scene_input.h"
 #include "cli/terminal.h"
 #include "engine/engine.h"
 
@@ -28,5 +29,24 @@ Status drawScene(const Scene *scene, Engine engine, Framebuffer *framebuffer, co
     status = renderCompiled(compiled, framebuffer, options, counts);
     seconds->trace = secondsSince(start);
     freeCompiledScene(compiled);
+    return status;
+}
+
+Status drawImage(const Scene *scene, const char *path, Engine engine, int threads, Image *image,
+                 DrawingSeconds *seconds, Text *messages)
+{
+    *seconds = (DrawingSeconds){0};
+    Framebuffer *framebuffer = createFramebuffer(scene->image.width, scene->image.height);
+    if (framebuffer == NULL)
+        return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
+                           scene->image.height);
+    RenderOptions options = {.threads = threads};
+    Status status = drawScene(scene, engine, framebuffer, &options, NULL, seconds);
+    if (statusIsOk(&status)) {
+        warnOfNonFinitePixels(framebuffer, path, messages);
+        status =
+            imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding, threads, image);
+    }
+    freeFramebuffer(framebuffer);
     return status;
 }

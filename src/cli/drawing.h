@@ -2,7 +2,9 @@
 #ifndef ECLAIRAGE_CLI_DRAWING_H
 #define ECLAIRAGE_CLI_DRAWING_H
 
+#include "base/text.h"
 #include "cli/command.h"
+#include "image/image.h"
 #include "raytracer.h"
 
 /* The engine to draw with. */
@@ -16,5 +18,10 @@ typedef struct DrawingSeconds {
 /* Draw the scene; counts may be NULL. */
 Status drawScene(const Scene *scene, Engine engine, Framebuffer *framebuffer, const RenderOptions *options,
                  RayCounts *counts, DrawingSeconds *seconds);
+
+/* Draw the scene, which messages call path, and store it as it says in *image, which the caller frees. A
+ * warning of what a picture cannot hold is appended to messages. */
+Status drawImage(const Scene *scene, const char *path, Engine engine, int threads, Image *image,
+                 DrawingSeconds *seconds, Text *messages);
 
 #endif

@@ -1,8 +1,8 @@
 /* explain_picture_file.c - `eclairage explain A.png B.png` and `explain SCENE.yaml PICTURE.png`; see
  * explain_ways.h. */
 #include "base/files.h"
-#include "cli/compare_job.h"
 #include "cli/explain_ways.h"
+#include "cli/report_folder.h"
 #include "cli/scene_input.h"
 #include "cli/shell_words.h"
 #include "cli/terminal.h"
@@ -19,32 +19,14 @@ enum {
 
 /* ---- The report ---- */
 
-/* The files of the report, none of which may be what it is made from. */
-static const char *const REPORT_FILES[] = {"index.html", "results.json"};
-
-/* See that no file of the report is written over the scene or a picture. */
-static Status protectInputs(const Arguments *arguments)
+/* Where a report is wanted, make its folder, when all that it needs was read, and see that it is not written
+ * over that; scene may be NULL. */
+static Status prepareFolder(const Arguments *arguments, const Scene *scene)
 {
-    for (size_t i = 0; i < sizeof REPORT_FILES / sizeof *REPORT_FILES; i++) {
-        Text path = pathInFolder(arguments->folder, REPORT_FILES[i]);
-        for (size_t k = 0; k < arguments->operandCount; k++) {
-            const char *input = arguments->operands[k];
-            if (isSameFile(textString(&path), input)) {
-                textFree(&path);
-                return statusError(STATUS_USAGE,
-                                   "the report would overwrite %s itself: choose another folder with --out",
-                                   displayName(input));
-            }
-        }
-        textFree(&path);
-    }
-    return statusOk();
-}
-
-/* Make the folder of the report where one is wanted, when all that it needs was read. */
-static Status prepareFolder(const Arguments *arguments)
-{
-    return arguments->folder != NULL ? makeFolders(arguments->folder) : statusOk();
+    if (arguments->folder == NULL)
+        return statusOk();
+    Status status = protectInputsFromPage(arguments, scene, arguments->folder);
+    return statusIsOk(&status) ? makeFolders(arguments->folder) : status;
 }
 
 static Status writeReport(const Arguments *arguments, const PictureExplanation *explanation,
@@ -63,13 +45,7 @@ static Status writeReport(const Arguments *arguments, const PictureExplanation *
                             .threads = chosenThreads(arguments)};
     Status status = command.failed ? statusOutOfMemory() : writePictureReport(arguments->folder, &report);
     textFree(&command);
-    if (!statusIsOk(&status))
-        return status;
-    Text path = pathInFolder(arguments->folder, "results.json");
-    status = path.failed || json->failed ? statusOutOfMemory()
-                                         : writeWholeFile(path.data, textString(json), json->length);
-    textFree(&path);
-    return status;
+    return statusIsOk(&status) ? writeResultsFile(arguments->folder, json) : status;
 }
 
 /* Write the report where one is wanted and print what was found; returns the exit code. */
@@ -85,15 +61,7 @@ static int tell(const Arguments *arguments, const PictureExplanation *explanatio
     }
     if (!arguments->json)
         writeExplanationsText(&explanation->causes, textString(&explanation->summary), &words);
-    int printed = printData(arguments->json ? &json : &words);
-    textFree(&json);
-    textFree(&words);
-    if (written == 0 && arguments->folder != NULL) {
-        Text page = pathInFolder(arguments->folder, "index.html");
-        printNote("the report is %s", textString(&page));
-        textFree(&page);
-    }
-    return written > printed ? written : printed;
+    return printResults(arguments, arguments->folder, written, &json, &words);
 }
 
 /* ---- What is explained ---- */
@@ -126,7 +94,7 @@ static int explainTwoPictures(const Arguments *arguments)
     if (statusIsOk(&status))
         status = readPicture(names[1], &reference);
     if (statusIsOk(&status))
-        status = prepareFolder(arguments);
+        status = prepareFolder(arguments, NULL);
     PictureExplanation explanation;
     if (statusIsOk(&status))
         status =
@@ -184,7 +152,7 @@ static int explainWithScene(const Arguments *arguments)
     PictureExplanation explanation;
     status = takeSize(&picture, pictureName, displayName(path), &scene);
     if (statusIsOk(&status))
-        status = prepareFolder(arguments);
+        status = prepareFolder(arguments, &scene);
     if (statusIsOk(&status))
         status = explainPictureOfScene(&picture, &scene, &source, chosenThreads(arguments), &explanation);
     int code = (int)status.code;
@@ -208,8 +176,6 @@ int explainPictureFile(const Arguments *arguments)
         strcmp(arguments->operands[1], "-") != 0)
         status = statusError(STATUS_USAGE, "the scene comes first: eclairage explain %s %s",
                              arguments->operands[1], arguments->operands[0]);
-    if (statusIsOk(&status) && arguments->folder != NULL)
-        status = protectInputs(arguments);
     if (!statusIsOk(&status))
         return printError(NULL, &status);
     return firstIsPicture ? explainTwoPictures(arguments) : explainWithScene(arguments);

@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "cli/command.h"
 #include "cli/drawing.h"
+#include "cli/report_folder.h"
 #include "cli/scene_input.h"
 #include "cli/shell_words.h"
 #include "cli/terminal.h"
@@ -11,42 +12,19 @@
 #include "explain/habits.h"
 #include "povray/run.h"
 
-#include <string.h>
-
-enum {
-    POVRAY_TIMEOUT = 600 /* seconds for one picture */
-};
-
 /* ---- Files in the folder ---- */
 
-/* The path of a file in the folder, freed by the caller. */
-static Text pathInFolder(const char *folder, const char *name, const char *ending)
+/* Make the folder, and see that nothing is written over what is read. */
+static Status prepareFolder(const Arguments *arguments, const Scene *scene)
 {
-    Text path = {0};
-    bool endsInSlash = folder[strlen(folder) - 1] == '/';
-    textAppendFormat(&path, "%s%s%s%s", folder, endsInSlash ? "" : "/", name, ending);
-    return path;
-}
-
-static Status protectFrom(const char *folder, const char *name, const char *scene)
-{
-    Text path = pathInFolder(folder, name, ".pov");
-    bool isScene = isSameFile(textString(&path), scene);
-    textFree(&path);
-    return isScene ? statusError(STATUS_USAGE, "the POV-Ray scene would overwrite the scene itself: choose "
-                                               "another folder with --out, or end its name in .yaml")
-                   : statusOk();
-}
-
-/* Make the folder, and see that no .pov is written over the scene. */
-static Status prepareFolder(const char *folder, const char *scene)
-{
-    Status status = protectFrom(folder, "native", scene);
-    if (statusIsOk(&status))
-        status = protectFrom(folder, "matched", scene);
-    for (int i = 0; i < POV_HABIT_COUNT && statusIsOk(&status); i++)
-        status = protectFrom(folder, povHabitName((PovHabit)(1 << i)), scene);
-    return statusIsOk(&status) ? makeFolders(folder) : status;
+    Status status = protectInputsFromPage(arguments, scene, arguments->folder);
+    Text name = {0};
+    for (int i = 0; statusIsOk(&status) && appendHabitFileName(i, &name); i++) {
+        status = name.failed ? statusOutOfMemory()
+                             : protectInputs(arguments, scene, arguments->folder, textString(&name));
+        textFree(&name);
+    }
+    return statusIsOk(&status) ? makeFolders(arguments->folder) : status;
 }
 
 static Status writeFolder(const Arguments *arguments, const HabitStudy *study, const Scene *scene,
@@ -62,42 +40,15 @@ static Status writeFolder(const Arguments *arguments, const HabitStudy *study, c
                           .threads = chosenThreads(arguments)};
     Status status = command.failed ? statusOutOfMemory() : writeHabitReport(arguments->folder, &report);
     textFree(&command);
-    if (!statusIsOk(&status))
-        return status;
-    Text path = pathInFolder(arguments->folder, "results.json", "");
-    status = path.failed || json->failed ? statusOutOfMemory()
-                                         : writeWholeFile(path.data, textString(json), json->length);
-    textFree(&path);
-    return status;
+    return statusIsOk(&status) ? writeResultsFile(arguments->folder, json) : status;
 }
 
 /* ---- A scene and POV-Ray's habits ---- */
-
-static Status drawOurs(const Arguments *arguments, const Scene *scene, Image *ours)
-{
-    Framebuffer *framebuffer = createFramebuffer(scene->image.width, scene->image.height);
-    if (framebuffer == NULL)
-        return statusError(STATUS_IO, "out of memory for a picture of %d x %d pixels", scene->image.width,
-                           scene->image.height);
-    RenderOptions options = {.threads = chosenThreads(arguments)};
-    DrawingSeconds seconds;
-    Status status = drawScene(scene, chosenEngine(arguments), framebuffer, &options, NULL, &seconds);
-    if (statusIsOk(&status)) {
-        Text messages = {0};
-        warnOfNonFinitePixels(framebuffer, arguments->operands[0], &messages);
-        printMessages(&messages);
-        status = imageFromFramebuffer(framebuffer, scene->image.bitDepth, scene->image.encoding,
-                                      options.threads, ours);
-    }
-    freeFramebuffer(framebuffer);
-    return status;
-}
 
 /* Say what was found, in words or as JSON; returns the exit code. */
 static int tellHabits(const Arguments *arguments, const HabitStudy *study, const Scene *scene,
                       const Image *ours)
 {
-    const char *path = arguments->operands[0];
     Explanations explanations;
     Status status = explainHabits(study, scene, &explanations);
     if (!statusIsOk(&status))
@@ -112,16 +63,8 @@ static int tellHabits(const Arguments *arguments, const HabitStudy *study, const
         written = statusIsOk(&status) ? 0 : printError(NULL, &status);
     }
     if (!arguments->json)
-        writeHabitsText(study, scene, displayName(path), colorOnOutput(), &words);
-    int printed = printData(arguments->json ? &json : &words);
-    textFree(&json);
-    textFree(&words);
-    if (written == 0 && arguments->folder != NULL) {
-        Text page = pathInFolder(arguments->folder, "index.html", "");
-        printNote("the report is %s", textString(&page));
-        textFree(&page);
-    }
-    return written > printed ? written : printed;
+        writeHabitsText(study, scene, displayName(arguments->operands[0]), colorOnOutput(), &words);
+    return printResults(arguments, arguments->folder, written, &json, &words);
 }
 
 /* Everything for a scene that was loaded. */
@@ -131,7 +74,7 @@ static int explainScene(const Arguments *arguments, Scene *scene)
     scene->image.bitDepth = 16;
     scene->image.encoding = ENCODING_LINEAR;
     const char *path = arguments->operands[0];
-    Status status = arguments->folder != NULL ? prepareFolder(arguments->folder, path) : statusOk();
+    Status status = arguments->folder != NULL ? prepareFolder(arguments, scene) : statusOk();
     if (!statusIsOk(&status))
         return printError(NULL, &status);
 
@@ -143,7 +86,10 @@ static int explainScene(const Arguments *arguments, Scene *scene)
     HabitStudy study;
     double start = secondsNow();
     beginProgress("explaining");
-    status = drawOurs(arguments, scene, &ours);
+    DrawingSeconds unused;
+    Text messages = {0};
+    status = drawImage(scene, path, chosenEngine(arguments), settings.threads, &ours, &unused, &messages);
+    printMessages(&messages);
     if (statusIsOk(&status))
         status = studyHabits(scene, &ours, &settings, &study);
     endProgress();
@@ -151,12 +97,11 @@ static int explainScene(const Arguments *arguments, Scene *scene)
     if (statusIsOk(&status)) {
         code = tellHabits(arguments, &study, scene, &ours);
         Text seconds = {0};
-        appendFixed(&seconds, secondsSince(start), 1);
+        textAppendFixed(&seconds, secondsSince(start), 1);
         printNote("%d pictures in %s s", study.pictureCount + 1, textString(&seconds));
         textFree(&seconds);
         freeHabitStudy(&study);
     } else {
-        Text messages = {0};
         appendSceneError(&messages, path, &status);
         printMessages(&messages);
         code = (int)status.code;

@@ -134,19 +134,28 @@ void appendNameBeside(const char *scene, const char *extension, Text *name)
     textAppend(name, extension);
 }
 
-bool isSameFile(const char *a, const char *b)
+/* Whether both name the same existing file. */
+static bool isSameFile(const char *a, const char *b)
 {
     struct stat aFile, bFile;
     return strcmp(a, "-") != 0 && strcmp(b, "-") != 0 && stat(a, &aFile) == 0 && stat(b, &bFile) == 0 &&
            S_ISREG(aFile.st_mode) && aFile.st_dev == bFile.st_dev && aFile.st_ino == bFile.st_ino;
 }
 
-Status refuseOverwriting(const char *output, const char *input)
+Status refuseOverwriting(const Arguments *arguments, const Scene *scene, const char *output,
+                         const char *remedy)
 {
-    if (output != NULL && isSameFile(output, input))
-        return statusError(STATUS_USAGE, "-o %s would overwrite %s itself: choose another name", output,
-                           input);
-    return statusOk();
+    const char *input = NULL;
+    for (size_t i = 0; i < arguments->operandCount && output != NULL && input == NULL; i++)
+        if (isSameFile(output, arguments->operands[i]))
+            input = arguments->operands[i];
+    const SceneFileName *file = scene != NULL && output != NULL ? scene->files : NULL;
+    for (; file != NULL && input == NULL; file = file->next)
+        if (isSameFile(output, file->path))
+            input = file->path;
+    return input == NULL ? statusOk()
+                         : statusError(STATUS_USAGE, "writing %s would overwrite %s, which is read: %s",
+                                       output, input, remedy);
 }
 
 Status probeOutput(const char *output)

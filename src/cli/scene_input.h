@@ -33,11 +33,11 @@ bool isPictureName(const char *path);
 /* The part of a path behind its last slash. */
 const char *baseName(const char *path);
 
-/* Whether both name the same existing file. */
-bool isSameFile(const char *a, const char *b);
-
-/* STATUS_USAGE when writing to output would destroy input. output may be NULL. */
-Status refuseOverwriting(const char *output, const char *input);
+/* STATUS_USAGE when writing to output, which may be NULL, would destroy what is read: an operand, or a file
+ * that the scene names; scene may be NULL. The message ends with the remedy, such as CHOOSE_OUTPUT. */
+#define CHOOSE_OUTPUT "choose another name with -o"
+Status refuseOverwriting(const Arguments *arguments, const Scene *scene, const char *output,
+                         const char *remedy);
 
 /* Whether output could be written, found out before the long work and not after it: what can be known
  * without touching an existing file. */

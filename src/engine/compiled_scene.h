@@ -130,12 +130,10 @@ struct CompiledScene {
     size_t transparentCount;
     uint8_t *skipsShadow;     /* of each object: it blocks no light by itself, being transparent or without
                                * shadow; NULL where there is none */
-    bool blocksAny;           /* some object blocks light */
     Material *materials;      /* those that occur, each once */
     uint32_t *objectMaterial; /* of each object */
     size_t materialCount;
-    bool lanesShade;   /* the picture is shaded in lanes; otherwise each ray by itself */
-    float geometryMax; /* the largest coordinate in the tree, scaled */
+    bool lanesShade; /* the picture is shaded in lanes; otherwise each ray by itself */
     const struct LanePath *path;
 };
 

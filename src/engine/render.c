@@ -1,6 +1,5 @@
 /* render.c - the picture by the fast engine: squares of tiles, handed out to threads; see engine.h. */
 #include "engine/lanes/path.h"
-#include "engine/single_rays.h"
 
 #include "base/cancel.h"
 #include "base/threads.h"
@@ -22,29 +21,11 @@ typedef struct Drawing {
 /* A tile whose rays are traced one by one: for a shadow bias, which the lanes do not know. */
 static void drawSingly(const TileJob *job, int left, int top, RayCounts *counts)
 {
-    const CompiledScene *compiled = job->compiled;
     const Framebuffer *framebuffer = job->framebuffer;
-    int n = compiled->scene->render.samples;
     for (int y = top; y < top + TILE_SIDE && y < framebuffer->height; y++)
-        for (int x = left; x < left + TILE_SIDE && x < framebuffer->width; x++) {
-            double sum[3] = {0, 0, 0};
-            Color3f color = createColor(0, 0, 0);
-            for (int sample = 0; sample < n * n; sample++) {
-                Ray ray = cameraRay(&job->frame, x + (sample % n + 0.5) / n, y + (sample / n + 0.5) / n,
-                                    framebuffer->width, framebuffer->height);
-                Media media = cameraMedia(job, &ray);
-                counts->primary++;
-                color = traceRay(&compiled->finder, &ray, &media, 1, counts);
-                sum[0] += (double)color.r;
-                sum[1] += (double)color.g;
-                sum[2] += (double)color.b;
-            }
-            double count = (double)n * n;
-            if (n > 1)
-                color =
-                    createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
-            putLinearPixel(job->framebuffer, x, y, color);
-        }
+        for (int x = left; x < left + TILE_SIDE && x < framebuffer->width; x++)
+            putLinearPixel(job->framebuffer, x, y,
+                           tracePixel(&job->rays, &job->compiled->finder, x, y, counts));
 }
 
 static void drawSquare(void *context, size_t number)
@@ -83,9 +64,8 @@ Status renderCompiled(const CompiledScene *compiled, Framebuffer *framebuffer, c
     size_t rows = ((size_t)framebuffer->height + SQUARE_SIDE - 1) / SQUARE_SIDE;
     Drawing drawing = {.job = {.compiled = compiled,
                                .framebuffer = framebuffer,
-                               .frame = cameraFrame(&scene->camera, framebuffer->width, framebuffer->height),
-                               .media = mediaAmong(scene, compiled->transparent, compiled->transparentCount,
-                                                   scene->camera.position)},
+                               .rays = createPixelRays(scene, framebuffer->width, framebuffer->height,
+                                                       compiled->transparent, compiled->transparentCount)},
                        .options = options,
                        .squareColumns = columns,
                        .squareCount = columns * rows};

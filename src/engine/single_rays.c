@@ -1,6 +1,7 @@
 /* single_rays.c - see single_rays.h. */
 #include "engine/single_rays.h"
 
+#include "engine/lanes/path.h"
 #include "engine/referee.h"
 
 static const CompiledScene *compiledOf(const SurfaceFinder *finder)
@@ -31,12 +32,4 @@ static Color3f findLight(const SurfaceFinder *finder, const ShadowRay *shadow, C
 SurfaceFinder createSingleRays(const Scene *scene)
 {
     return (SurfaceFinder){.scene = scene, .nearest = findNearest, .lightAlong = findLight};
-}
-
-Media cameraMedia(const TileJob *job, const Ray *ray)
-{
-    if (job->frame.projection == PROJECTION_PERSPECTIVE)
-        return job->media;
-    const CompiledScene *compiled = job->compiled;
-    return mediaAmong(compiled->scene, compiled->transparent, compiled->transparentCount, ray->origin);
 }

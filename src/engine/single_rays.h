@@ -3,12 +3,8 @@
 #define ECLAIRAGE_ENGINE_SINGLE_RAYS_H
 
 #include "engine/compiled_scene.h"
-#include "engine/lanes/path.h"
 
 /* Finds as the reference tracer does, through the compiled scene that it is the first member of. */
 SurfaceFinder createSingleRays(const Scene *scene);
-
-/* The transparent objects that a camera's ray starts in. */
-Media cameraMedia(const TileJob *job, const Ray *ray);
 
 #endif

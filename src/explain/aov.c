@@ -39,7 +39,7 @@ uint32_t objectIdColor(size_t number)
 
 /* What is known of the pixel so far: sums over its samples. */
 typedef struct Sums {
-    double values[AOV_COUNT][3];
+    ColorSum values[AOV_COUNT];
     int hits;
     const Object *object; /* of the sample in the middle; NULL: none */
 } Sums;
@@ -48,10 +48,7 @@ typedef struct Drawing {
     const SurfaceFinder *finder;
     unsigned set;
     const RenderOptions *options;
-    CameraFrame frame;
-    const uint32_t *transparent; /* numbers of the transparent objects */
-    size_t transparentCount;
-    Media media; /* at the position of a perspective camera */
+    PixelRays rays;
     int width, height;
     AovPictures *aovs;
     uint32_t *objects; /* number + 1 of the object in each pixel, 0: none */
@@ -65,16 +62,14 @@ static bool wants(const Drawing *drawing, Aov aov)
 
 static void addTo(Sums *sums, Aov aov, Color3f color)
 {
-    sums->values[aov][0] += (double)color.r;
-    sums->values[aov][1] += (double)color.g;
-    sums->values[aov][2] += (double)color.b;
+    addToSum(&sums->values[aov], color);
 }
 
 /* The share of the light that reaches the point, of the lights shining at its front. */
 static Color3f litShare(const SurfaceFinder *finder, const SurfacePoint *point)
 {
     const Scene *scene = finder->scene;
-    double sum[3] = {0, 0, 0};
+    ColorSum sum = {0};
     int count = 0;
     for (size_t i = 0; i < scene->lightCount; i++) {
         for (int sample = 0; sample < lightSampleCount(&scene->lights[i]); sample++) {
@@ -86,15 +81,11 @@ static Color3f litShare(const SurfaceFinder *finder, const SurfacePoint *point)
                 ShadowRay shadow = shadowRayTo(scene, point, &arriving);
                 reaching = finder->lightAlong(finder, &shadow, reaching);
             }
-            sum[0] += (double)reaching.r;
-            sum[1] += (double)reaching.g;
-            sum[2] += (double)reaching.b;
+            addToSum(&sum, reaching);
             count++;
         }
     }
-    if (count == 0)
-        return createColor(1, 1, 1);
-    return createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
+    return count > 0 ? meanColor(sum, count) : createColor(1, 1, 1);
 }
 
 /* A finder that meets nothing and only notes where the ray goes. */
@@ -165,11 +156,13 @@ static void addSample(const Drawing *drawing, Sums *sums, const Ray *ray, const 
     }
     SurfacePoint point = surfacePointAt(ray, object, &hit);
     sums->hits++;
-    sums->values[AOV_NORMAL][0] += (point.normal.x + 1) / 2;
-    sums->values[AOV_NORMAL][1] += (point.normal.y + 1) / 2;
-    sums->values[AOV_NORMAL][2] += (point.normal.z + 1) / 2;
-    for (int c = 0; c < 3; c++)
-        sums->values[AOV_DEPTH][c] += hit.distance;
+    ColorSum *normal = &sums->values[AOV_NORMAL], *depth = &sums->values[AOV_DEPTH];
+    normal->r += (point.normal.x + 1) / 2;
+    normal->g += (point.normal.y + 1) / 2;
+    normal->b += (point.normal.z + 1) / 2;
+    depth->r += hit.distance;
+    depth->g += hit.distance;
+    depth->b += hit.distance;
     if (wants(drawing, AOV_ALBEDO))
         addTo(sums, AOV_ALBEDO, materialAt(hit.object, point.position).diffuse);
     if (wants(drawing, AOV_SHADOW))
@@ -189,8 +182,7 @@ static void storePixel(const Drawing *drawing, const Sums *sums, int x, int y)
             continue;
         bool overHits = aov == AOV_NORMAL || aov == AOV_DEPTH;
         double count = overHits ? fmax(1, sums->hits) : (double)n * n;
-        const double *sum = sums->values[aov];
-        Color3f mean = createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
+        Color3f mean = meanColor(sums->values[aov], count);
         /* Until the farthest is known, no distance is an infinite one. */
         if (aov == AOV_DEPTH && sums->hits == 0)
             mean = createColor(INFINITY, INFINITY, INFINITY);
@@ -210,11 +202,8 @@ static void drawRow(void *context, size_t number)
         Sums sums = {.object = NULL};
         for (int j = 0; j < n; j++) {
             for (int i = 0; i < n; i++) {
-                Ray ray = cameraRay(&drawing->frame, x + (i + 0.5) / n, y + (j + 0.5) / n, drawing->width,
-                                    drawing->height);
-                Media media = drawing->media;
-                if (drawing->frame.projection != PROJECTION_PERSPECTIVE)
-                    media = mediaAmong(scene, drawing->transparent, drawing->transparentCount, ray.origin);
+                Media media;
+                Ray ray = pixelRay(&drawing->rays, x + (i + 0.5) / n, y + (j + 0.5) / n, &media);
                 addSample(drawing, &sums, &ray, &media, i == n / 2 && j == n / 2);
             }
         }
@@ -290,10 +279,7 @@ Status renderAovs(const SurfaceFinder *finder, unsigned set, int width, int heig
     Drawing drawing = {.finder = finder,
                        .set = set,
                        .options = options,
-                       .frame = cameraFrame(&scene->camera, width, height),
-                       .transparent = transparent,
-                       .transparentCount = transparentCount,
-                       .media = mediaAmong(scene, transparent, transparentCount, scene->camera.position),
+                       .rays = createPixelRays(scene, width, height, transparent, transparentCount),
                        .width = width,
                        .height = height,
                        .aovs = aovs};

@@ -22,7 +22,8 @@ DrawnPoint drawnPoint(const DrawingPlane *plane, Vector3D world)
                         plane->originY - dot(d, plane->up) * plane->scale};
 }
 
-Vector3D worldPointAt(const DrawingPlane *plane, DrawnPoint point)
+/* The point of the plane at a place of the drawing. */
+static Vector3D worldPointAt(const DrawingPlane *plane, DrawnPoint point)
 {
     double x = (point.x - plane->originX) / plane->scale, y = (plane->originY - point.y) / plane->scale;
     return addVectors(plane->origin, addVectors(multVector(plane->right, x), multVector(plane->up, y)));
@@ -30,8 +31,7 @@ Vector3D worldPointAt(const DrawingPlane *plane, DrawnPoint point)
 
 void appendPixels(Text *text, double value)
 {
-    long tenths = isfinite(value) ? lround(fmax(-1e5, fmin(1e5, value)) * 10) : 0;
-    textAppendFormat(text, "%s%ld.%ld", tenths < 0 ? "-" : "", labs(tenths) / 10, labs(tenths) % 10);
+    textAppendFixed(text, isfinite(value) ? fmax(-1e5, fmin(1e5, value)) : 0, 1);
 }
 
 static void appendPoint(Text *path, const char *command, DrawnPoint point)

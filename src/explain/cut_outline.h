@@ -26,9 +26,8 @@ typedef struct DrawnPoint {
     double x, y; /* pixels, y down */
 } DrawnPoint;
 
-/* The point, projected onto the plane; and the point of the plane at a place of the drawing. */
+/* The point, projected onto the plane. */
 DrawnPoint drawnPoint(const DrawingPlane *plane, Vector3D world);
-Vector3D worldPointAt(const DrawingPlane *plane, DrawnPoint point);
 
 /* Append a coordinate in pixels, to a tenth. */
 void appendPixels(Text *text, double value);

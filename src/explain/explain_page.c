@@ -1,10 +1,8 @@
-/* explain_page.c - see explain_page.h.
- *
- * The style and the script are put into the read-only data as in compare/report_template.c.
- */
+/* explain_page.c - see explain_page.h. */
 #include "explain/explain_page.h"
 
 #include "base/cancel.h"
+#include "base/embed.h"
 #include "colors.h"
 #include "compare/difference.h"
 #include "compare/html.h"
@@ -15,13 +13,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define EMBED_FILE(symbol, path)                                                                             \
-    __asm__(".pushsection .rodata\n"                                                                         \
-            ".global " symbol "\n" symbol ":\n"                                                              \
-            ".incbin \"" path "\"\n"                                                                         \
-            ".byte 0\n"                                                                                      \
-            ".popsection\n")
 
 EMBED_FILE("explainStyle", "src/explain/explain_page.css");
 EMBED_FILE("explainScript", "src/explain/explain_page.js");
@@ -34,18 +25,11 @@ enum {
 
 /* ---- The file ---- */
 
-Text pathInReport(const char *folder, const char *name, const char *ending)
-{
-    Text path = {0};
-    textAppendFormat(&path, "%s%s%s%s", folder, folder[strlen(folder) - 1] == '/' ? "" : "/", name, ending);
-    return path;
-}
-
 Status openPage(ExplainPage *page, const char *folder, int threads)
 {
     page->threads = threads;
     page->status = statusOk();
-    Text path = pathInReport(folder, "index.html", "");
+    Text path = pathInFolder(folder, "index.html");
     Status status = path.failed ? statusOutOfMemory() : openOutput(&page->output, path.data);
     textFree(&path);
     return status;
@@ -120,7 +104,7 @@ void writeBreakableName(ExplainPage *page, const char *name)
 void writeNumber(ExplainPage *page, double value)
 {
     Text text = {0};
-    appendFixed(&text, value, PAGE_DECIMALS);
+    textAppendFixed(&text, value, PAGE_DECIMALS);
     writeMade(page, &text);
 }
 
@@ -128,7 +112,7 @@ void appendChange(Text *text, double change)
 {
     double shown = round(change * 1e5);
     textAppend(text, shown > 0 ? "+" : shown < 0 ? "\xE2\x88\x92" : "");
-    appendFixed(text, fabs(change), PAGE_DECIMALS);
+    textAppendFixed(text, fabs(change), PAGE_DECIMALS);
 }
 
 /* ---- The frame ---- */
@@ -291,9 +275,9 @@ static void appendBox(Text *svg, const char *kind, double from, double to, doubl
 {
     double scale = largest > 0 ? CHART_WIDTH / largest : 0;
     textAppendFormat(svg, "<rect class=\"%s\" x=\"", kind);
-    appendFixed(svg, from * scale, 2);
+    textAppendFixed(svg, from * scale, 2);
     textAppendFormat(svg, "\" y=\"%d\" width=\"", top + BAR_TOP);
-    appendFixed(svg, fmax(to - from, 0) * scale, 2);
+    textAppendFixed(svg, fmax(to - from, 0) * scale, 2);
     textAppendFormat(svg, "\" height=\"%d\"/>\n", BAR_HEIGHT);
 }
 
@@ -305,7 +289,7 @@ void appendWaterfallRow(const Waterfall *chart, int row, const char *label, doub
     textAppendHtml(svg, label);
     textAppendFormat(svg, "</text><text class=\"number\" x=\"%d\" y=\"%d\" text-anchor=\"end\">", CHART_WIDTH,
                      top + 17);
-    appendFixed(svg, after, PAGE_DECIMALS);
+    textAppendFixed(svg, after, PAGE_DECIMALS);
     if (after != before) {
         textAppend(svg, " (");
         appendChange(svg, after - before);

@@ -26,9 +26,6 @@ typedef struct ExplainPage {
     Status status;
 } ExplainPage;
 
-/* The path of a file in a folder: name and ending together. Freed by the caller. */
-Text pathInReport(const char *folder, const char *name, const char *ending);
-
 /* Begin index.html in an existing folder. On failure nothing is open: STATUS_IO with the file and the reason.
  */
 Status openPage(ExplainPage *page, const char *folder, int threads);

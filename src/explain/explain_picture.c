@@ -170,7 +170,7 @@ static bool isSpeckled(const Look *look)
 
 static void appendShare(Text *text, size_t part, size_t whole)
 {
-    appendRounded(text, 100.0 * (double)part / (double)whole, 3);
+    textAppendRounded(text, 100.0 * (double)part / (double)whole, 3);
     textAppend(text, " %");
 }
 

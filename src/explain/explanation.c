@@ -3,9 +3,6 @@
 
 #include "base/json.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 /* ORDER Cause */
 static const char *const CAUSE_NAMES[CAUSE_COUNT] = {
     "gamma",          "exposure", "mirrored", "flipped", "channels",     "shift",
@@ -67,27 +64,14 @@ void writeExplanationsText(const Explanations *explanations, const char *summary
         return;
     }
     textAppend(text, "difference: root mean square error ");
-    appendRounded(text, explanations->before, 3);
+    textAppendRounded(text, explanations->before, 3);
     textAppend(text, "\n");
     for (size_t i = 0; i < explanations->count; i++) {
         const Explanation *item = &explanations->items[i];
         textAppendFormat(text, "\n%zu. %s: %s\n   look at: %s\n", i + 1, causeName(item->cause),
                          textString(&item->text), textString(&item->where));
         textAppend(text, item->cause == CAUSE_UNKNOWN ? "   not explained: " : "   left after this: ");
-        appendRounded(text, item->residual, 3);
+        textAppendRounded(text, item->residual, 3);
         textAppend(text, "\n");
     }
-}
-
-void appendRounded(Text *text, double value, int digits)
-{
-    if (value == 0 || !isfinite(value)) {
-        textAppendDouble(text, value);
-        return;
-    }
-    /* Round at the last digit asked for; the shortest spelling of that has no more. */
-    int exponent = (int)floor(log10(fabs(value)));
-    double unit = pow(10, abs(exponent - digits + 1));
-    double scaled = exponent - digits + 1 < 0 ? round(value * unit) / unit : round(value / unit) * unit;
-    textAppendDouble(text, scaled);
 }

@@ -64,7 +64,4 @@ void writeExplanationsJson(const Explanations *explanations, Text *text);
 /* Append the causes in words for a terminal. summary stands where there are none. */
 void writeExplanationsText(const Explanations *explanations, const char *summary, Text *text);
 
-/* Append a number with so many significant digits, as a person writes it: 0.0312, 4.2e-7. */
-void appendRounded(Text *text, double value, int digits);
-
 #endif

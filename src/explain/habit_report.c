@@ -45,9 +45,9 @@ static void writeChart(ExplainPage *page, const HabitStudy *study)
     double before = rmseAfter(study, 0);
     Text svg = {0}, words = {0};
     textAppend(&words, "Bars of the root mean square error, from ");
-    appendFixed(&words, before, PAGE_DECIMALS);
+    textAppendFixed(&words, before, PAGE_DECIMALS);
     textAppend(&words, " with all habits to ");
-    appendFixed(&words, rmseAfter(study, study->count), PAGE_DECIMALS);
+    textAppendFixed(&words, rmseAfter(study, study->count), PAGE_DECIMALS);
     textAppend(&words, " with none; the table has the same numbers.");
     beginWaterfall(&chart, "How the difference goes down as the habits are taken back", textString(&words),
                    &svg);
@@ -185,10 +185,43 @@ static void writePage(ExplainPage *page, const HabitReport *report)
 
 /* ---- Files ---- */
 
-static Status writeImage(const char *folder, const HabitReport *report, const char *name, const char *ending,
-                         const Image *image)
+typedef enum PictureFile {
+    FILE_POV,
+    FILE_PICTURE,
+    FILE_DIFFERENCE,
+    PICTURE_FILE_COUNT
+} PictureFile;
+
+/* ORDER PictureFile */
+static const char *const ENDINGS[] = {".pov", ".png", "-difference.png"};
+
+static const char OURS[] = "ours.png", MATCHED[] = "matched", NATIVE[] = "native";
+
+bool appendHabitFileName(int number, Text *name)
 {
-    Text path = pathInReport(folder, name, ending);
+    if (number == 0) {
+        textAppend(name, OURS);
+        return true;
+    }
+    int picture = (number - 1) / PICTURE_FILE_COUNT, file = (number - 1) % PICTURE_FILE_COUNT;
+    if (picture >= 2 + POV_HABIT_COUNT)
+        return false;
+    textAppend(name, picture == 0   ? MATCHED
+                     : picture == 1 ? NATIVE
+                                    : povHabitName((PovHabit)(1 << (picture - 2))));
+    textAppend(name, ENDINGS[file]);
+    return true;
+}
+
+static Text pathOfFile(const char *folder, const char *name, PictureFile file)
+{
+    Text path = pathInFolder(folder, name);
+    textAppend(&path, ENDINGS[file]);
+    return path;
+}
+
+static Status writeImage(const HabitReport *report, Text path, const Image *image)
+{
     Status status = path.failed ? statusOutOfMemory() : writePng(path.data, image, report->threads);
     textFree(&path);
     return status;
@@ -198,18 +231,18 @@ static Status writeImage(const char *folder, const HabitReport *report, const ch
 static Status writeFiles(const char *folder, const HabitReport *report, const HabitPicture *picture,
                          const char *name)
 {
-    Text path = pathInReport(folder, name, ".pov");
+    Text path = pathOfFile(folder, name, FILE_POV);
     Status status = path.failed || picture->pov.failed
                         ? statusOutOfMemory()
                         : writeWholeFile(path.data, textString(&picture->pov), picture->pov.length);
     textFree(&path);
     if (statusIsOk(&status))
-        status = writeImage(folder, report, name, ".png", &picture->image);
+        status = writeImage(report, pathOfFile(folder, name, FILE_PICTURE), &picture->image);
     Image difference;
     if (statusIsOk(&status))
         status = differencePicture(report->ours, &picture->image, &difference);
     if (statusIsOk(&status)) {
-        status = writeImage(folder, report, name, "-difference.png", &difference);
+        status = writeImage(report, pathOfFile(folder, name, FILE_DIFFERENCE), &difference);
         freeImage(&difference);
     }
     return status;
@@ -218,11 +251,11 @@ static Status writeFiles(const char *folder, const HabitReport *report, const Ha
 Status writeHabitReport(const char *folder, const HabitReport *report)
 {
     const HabitStudy *study = report->study;
-    Status status = writeImage(folder, report, "ours", ".png", report->ours);
+    Status status = writeImage(report, pathInFolder(folder, OURS), report->ours);
     if (statusIsOk(&status))
-        status = writeFiles(folder, report, habitPicture(study, 0), "matched");
+        status = writeFiles(folder, report, habitPicture(study, 0), MATCHED);
     if (statusIsOk(&status))
-        status = writeFiles(folder, report, pictureAfterHabits(study, 0), "native");
+        status = writeFiles(folder, report, pictureAfterHabits(study, 0), NATIVE);
     for (int i = 0; i < study->count && statusIsOk(&status); i++)
         status = writeFiles(folder, report, pictureWithHabit(study, i), povHabitName(study->order[i]));
     if (!statusIsOk(&status))

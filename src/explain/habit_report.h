@@ -20,4 +20,8 @@ typedef struct HabitReport {
  * the reason, STATUS_INTERRUPTED when cancelled; then some of them may be there, each of them whole. */
 Status writeHabitReport(const char *folder, const HabitReport *report);
 
+/* Append the name of a file that it may write beside index.html, by a number from 0 on; false, with nothing
+ * appended, behind the last one. */
+bool appendHabitFileName(int number, Text *name);
+
 #endif

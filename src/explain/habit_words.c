@@ -113,9 +113,9 @@ void appendHabitText(const HabitStudy *study, const Scene *scene, int number, Te
     case POV_HABIT_ANGLE:
         textAppend(text, "POV-Ray's `angle` is the one across the picture, and `fov` is the one from top to "
                          "bottom: ");
-        appendRounded(text, scene->camera.fov, 4);
+        textAppendRounded(text, scene->camera.fov, 4);
         textAppend(text, " degrees across where ");
-        appendRounded(text, horizontalAngle(scene), 4);
+        textAppendRounded(text, horizontalAngle(scene), 4);
         textAppend(text, " are meant.");
         break;
     case POV_HABIT_AREA_LIGHT:
@@ -170,7 +170,7 @@ void appendHabitRemedy(const HabitStudy *study, const Scene *scene, int number, 
         break;
     case POV_HABIT_ANGLE:
         textAppend(text, "write `camera { angle 2*degrees(atan2(tan(radians(");
-        appendRounded(text, scene->camera.fov, 15);
+        textAppendRounded(text, scene->camera.fov, 15);
         textAppend(text, ")/2)*image_width/image_height, 1)) }`");
         break;
     case POV_HABIT_AREA_LIGHT:
@@ -228,26 +228,11 @@ enum {
     INDENT = 3
 };
 
-void appendFixed(Text *text, double value, int decimals)
-{
-    if (!isfinite(value)) {
-        textAppendDouble(text, value);
-        return;
-    }
-    long long unit = 1;
-    for (int i = 0; i < decimals; i++)
-        unit *= 10;
-    long long scaled = llround(value * (double)unit);
-    textAppendFormat(text, "%lld", scaled / unit);
-    if (decimals > 0)
-        textAppendFormat(text, ".%0*lld", decimals, scaled % unit);
-}
-
 /* A number in a column, after two spaces. */
 static void appendColumn(Text *text, double value)
 {
     textAppend(text, "  ");
-    appendFixed(text, value, DECIMALS);
+    textAppendFixed(text, value, DECIMALS);
 }
 
 /* A bar whose length is in proportion; what is more than 0 has at least a mark. */
@@ -329,7 +314,7 @@ static void appendSequence(const HabitStudy *study, bool color, Text *text)
         appendColumn(text, after);
         double change = round((after - before) * 1e5);
         textAppend(text, change > 0 ? "  (+" : change < 0 ? "  (-" : "  ( ");
-        appendFixed(text, fabs(after - before), DECIMALS);
+        textAppendFixed(text, fabs(after - before), DECIMALS);
         textAppend(text, ")");
         appendBar(text, after, largest);
         before = after;
@@ -344,11 +329,11 @@ void appendHabitSum(const HabitStudy *study, Text *text)
     double native = pictureAfterHabits(study, 0)->metrics.rmse;
     const Metrics *matched = &habitPicture(study, 0)->metrics;
     textAppend(text, "explained ");
-    appendFixed(text, fmax(native - matched->rmse, 0), DECIMALS);
+    textAppendFixed(text, fmax(native - matched->rmse, 0), DECIMALS);
     textAppend(text, " of ");
-    appendFixed(text, native, DECIMALS);
+    textAppendFixed(text, native, DECIMALS);
     textAppend(text, ", left ");
-    appendRounded(text, matched->rmse, 2);
+    textAppendRounded(text, matched->rmse, 2);
     if (matched->rmse > HABIT_STEP)
         textAppendFormat(text, ", which is none of these habits; look at the pixel (%d, %d)",
                          matched->worst.x, matched->worst.y);

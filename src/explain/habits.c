@@ -85,14 +85,8 @@ static bool isShown(const HabitStudy *study, unsigned habits)
 
 static Status drawPicture(const HabitRun *run, HabitPicture *picture)
 {
-    const Scene *scene = run->scene;
-    PovraySettings settings = {.width = scene->image.width,
-                               .height = scene->image.height,
-                               .bitDepth = scene->image.bitDepth,
-                               .encoding = scene->image.encoding,
-                               .samples = scene->render.samples,
-                               .threads = run->povrayThreads,
-                               .timeoutSeconds = run->settings->timeoutSeconds};
+    PovraySettings settings = createPovraySettings(run->scene, run->povrayThreads);
+    settings.timeoutSeconds = run->settings->timeoutSeconds;
     if ((picture->habits & POV_HABIT_GAMMA) != 0)
         settings.gamma = POV_HABIT_ASSUMED_GAMMA;
     return runPovray(textString(&picture->pov), &settings, &picture->image);

@@ -82,7 +82,4 @@ void writeHabitsText(const HabitStudy *study, const Scene *scene, const char *na
 /* The last line of the words: "explained 0.19421 of 0.19421, left 0". */
 void appendHabitSum(const HabitStudy *study, Text *text);
 
-/* Append a number at least 0 with so many digits behind the point, 0 to 9. */
-void appendFixed(Text *text, double value, int decimals);
-
 #endif

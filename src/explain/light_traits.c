@@ -51,7 +51,7 @@ static void tellFalloff(const Trait *trait, double number, const Scene *scene, T
         textAppend(text, "falloff is missing: the lights are as strong at any distance");
     } else {
         textAppend(text, "the lights fall off by 1/d^");
-        appendRounded(text, number, 3);
+        textAppendRounded(text, number, 3);
     }
 }
 
@@ -97,15 +97,15 @@ static void tellShininess(const Trait *trait, double number, const Scene *scene,
     (void)scene;
     if (trait->choice == SHININESS_OF_ONE) {
         textAppend(text, "where the scene says shininess ");
-        appendRounded(text, (double)trait->group, 4);
+        textAppendRounded(text, (double)trait->group, 4);
         textAppend(text, ", the highlight is that of ");
-        appendRounded(text, number, 3);
+        textAppendRounded(text, number, 3);
     } else if (trait->choice == SHININESS_IS) {
         textAppend(text, "all highlights are those of shininess ");
-        appendRounded(text, number, 3);
+        textAppendRounded(text, number, 3);
     } else {
         textAppend(text, "the exponent of the highlights is ");
-        appendRounded(text, number, 3);
+        textAppendRounded(text, number, 3);
         textAppend(text, " times the scene's shininess");
     }
 }
@@ -163,7 +163,7 @@ static void tellAmbientScale(const Trait *trait, double number, const Scene *sce
         return;
     }
     textAppend(text, "the ambient light is ");
-    appendRounded(text, number, 3);
+    textAppendRounded(text, number, 3);
     textAppend(text, " times the scene's");
 }
 
@@ -184,7 +184,7 @@ static void tellLightScale(const Trait *trait, double number, const Scene *scene
         textAppend(text, "missing");
         return;
     }
-    appendRounded(text, number, 3);
+    textAppendRounded(text, number, 3);
     textAppend(text, " times as bright as they should be");
 }
 

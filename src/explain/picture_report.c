@@ -135,9 +135,9 @@ static void writeChart(ExplainPage *page, const Explanations *causes)
         chart.largest = fmax(chart.largest, causes->items[i].residual);
     Text svg = {0}, words = {0};
     textAppend(&words, "Bars of the root mean square error, from ");
-    appendFixed(&words, causes->before, PAGE_DECIMALS);
+    textAppendFixed(&words, causes->before, PAGE_DECIMALS);
     textAppend(&words, " before to ");
-    appendFixed(&words, errorAfter(causes, causes->count), PAGE_DECIMALS);
+    textAppendFixed(&words, errorAfter(causes, causes->count), PAGE_DECIMALS);
     textAppend(&words, " in the end; the table has the same numbers.");
     beginWaterfall(&chart, "How the difference goes down as its causes are taken into account",
                    textString(&words), &svg);

@@ -356,23 +356,22 @@ static RayStory *tellRay(Telling *telling, RayRole role, Ray ray, const Media *m
 
 /* ---- The pixel ---- */
 
-/* As renderPixel: the samples, of which one is told, and their mean. */
+/* As tracePixel: the samples, of which one is told, and their mean. */
 static void tellSamples(Telling *telling, PixelStory *story, const uint32_t *transparent,
                         size_t transparentCount)
 {
     const Scene *scene = telling->scene;
-    CameraFrame frame = cameraFrame(&scene->camera, scene->image.width, scene->image.height);
+    PixelRays rays =
+        createPixelRays(scene, scene->image.width, scene->image.height, transparent, transparentCount);
     int n = scene->render.samples;
-    double sum[3] = {0, 0, 0};
+    ColorSum sum = {0};
     for (size_t number = 0; number < story->sampleCount; number++) {
         SampleStory *sample = &story->samples[number];
         int i = (int)(number % (size_t)n), j = (int)(number / (size_t)n);
         sample->x = story->x + (i + 0.5) / n;
         sample->y = story->y + (j + 0.5) / n;
-        Ray ray = cameraRay(&frame, sample->x, sample->y, scene->image.width, scene->image.height);
-        Media media =
-            mediaAmong(scene, transparent, transparentCount,
-                       frame.projection == PROJECTION_PERSPECTIVE ? scene->camera.position : ray.origin);
+        Media media;
+        Ray ray = pixelRay(&rays, sample->x, sample->y, &media);
         if (number == story->told) {
             story->ray = tellRay(telling, RAY_OF_CAMERA, ray, &media, 1);
             if (story->ray == NULL)
@@ -381,14 +380,9 @@ static void tellSamples(Telling *telling, PixelStory *story, const uint32_t *tra
         } else {
             sample->color = traceRay(telling->finder, &ray, &media, 1, &telling->counts);
         }
-        sum[0] += (double)sample->color.r;
-        sum[1] += (double)sample->color.g;
-        sum[2] += (double)sample->color.b;
+        addToSum(&sum, sample->color);
     }
-    double count = (double)n * n;
-    story->color =
-        n == 1 ? story->samples[0].color
-               : createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
+    story->color = n == 1 ? story->samples[0].color : meanColor(sum, (double)n * n);
 }
 
 Status createPixelStory(const Scene *scene, int x, int y, PixelStory *story)

@@ -5,8 +5,6 @@
 #include "povray/export.h"
 #include "povray/run.h"
 
-static const double TIMEOUT_SECONDS = 300;
-
 PovrayPixel askPovray(const PixelStory *story, int threads)
 {
     PovrayPixel pixel = {.status = findPovray()};
@@ -19,16 +17,12 @@ PovrayPixel askPovray(const PixelStory *story, int threads)
         pixel.status = statusOutOfMemory();
     Image image;
     if (statusIsOk(&pixel.status)) {
-        PovraySettings settings = {.width = scene->image.width,
-                                   .height = scene->image.height,
-                                   .bitDepth = 16,
-                                   .encoding = ENCODING_LINEAR,
-                                   .samples = scene->render.samples,
-                                   .threads = threads,
-                                   .timeoutSeconds = TIMEOUT_SECONDS,
-                                   .onePixel = true,
-                                   .x = story->x,
-                                   .y = story->y};
+        PovraySettings settings = createPovraySettings(scene, threads);
+        settings.bitDepth = 16;
+        settings.encoding = ENCODING_LINEAR;
+        settings.onePixel = true;
+        settings.x = story->x;
+        settings.y = story->y;
         pixel.status = runPovray(textString(&pov), &settings, &image);
     }
     textFree(&pov);

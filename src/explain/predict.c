@@ -137,45 +137,21 @@ static void lookUpPixel(const Image *image, const uint16_t *background, const Ev
 typedef struct Tracing {
     const Truth *truth;
     const Evidence *evidence;
-    const ViewChange *view;
     const ChangedFinder *finders; /* one for each alternative */
-    CameraFrame frame;
-    Media media; /* round a perspective camera */
+    PixelRays rays;
     Prediction *prediction;
 } Tracing;
 
-/* The mean colour of a pixel's rays. */
-static Color3f tracePixel(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel)
+/* Look where the picture's point shows, if view is what is wrong with it. */
+static void movePoint(const void *view, int width, int height, double *x, double *y)
 {
-    const Truth *truth = tracing->truth;
-    const Evidence *evidence = tracing->evidence;
-    int n = truth->scene->render.samples;
-    double sum[3] = {0, 0, 0};
-    for (int k = 0; k < n * n; k++) {
-        double x = pixel->x + (k % n + 0.5) / n, y = pixel->y + (k / n + 0.5) / n;
-        changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
-        Ray ray = cameraRay(&tracing->frame, x, y, evidence->width, evidence->height);
-        Media media = tracing->media;
-        if (tracing->frame.projection != PROJECTION_PERSPECTIVE)
-            media = mediaAmong(truth->scene, truth->transparent, truth->transparentCount, ray.origin);
-        RayCounts counts = {0};
-        Color3f color = traceRay(finder, &ray, &media, 1, &counts);
-        if (n == 1)
-            return color;
-        sum[0] += (double)color.r;
-        sum[1] += (double)color.g;
-        sum[2] += (double)color.b;
-    }
-    double count = (double)n * n;
-    return createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
+    changePoint(view, width, height, x, y);
 }
 
 static ValuePlace findPlace(const Tracing *tracing, const EvidencePixel *pixel)
 {
-    double x = pixel->x + 0.5, y = pixel->y + 0.5;
-    const Evidence *evidence = tracing->evidence;
-    changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
-    Ray ray = cameraRay(&tracing->frame, x, y, evidence->width, evidence->height);
+    Media media;
+    Ray ray = pixelRay(&tracing->rays, pixel->x + 0.5, pixel->y + 0.5, &media);
     Hit hit;
     const SurfaceFinder *finder = tracing->truth->finder;
     if (finder->nearest(finder, &ray, &hit) == NULL)
@@ -192,7 +168,9 @@ static void traceChunk(void *context, size_t number)
     for (size_t i = number * CHUNK; i < end && !cancelRequested(); i++) {
         const EvidencePixel *pixel = &tracing->evidence->pixels[i];
         for (int a = 0; a < prediction->alternatives; a++) {
-            Color3f color = tracePixel(tracing, &tracing->finders[a].finder, pixel);
+            RayCounts counts = {0};
+            Color3f color =
+                tracePixel(&tracing->rays, &tracing->finders[a].finder, pixel->x, pixel->y, &counts);
             const float channels[3] = {color.r, color.g, color.b};
             for (size_t c = 0; c < 3; c++) {
                 prediction->low[a][3 * i + c] = prediction->high[a][3 * i + c] = channels[c];
@@ -234,15 +212,12 @@ static Status predictFromScene(const Truth *truth, const Evidence *evidence, con
         change.blockedLights = ways[i];
         createChangedFinder(truth->finder, &change, &finders[i]);
     }
-    const Scene *scene = truth->scene;
+    PixelRays rays = createPixelRays(truth->scene, evidence->width, evidence->height, truth->transparent,
+                                     truth->transparentCount);
+    rays.movePoint = movePoint;
+    rays.moveContext = view;
     Tracing tracing = {
-        .truth = truth,
-        .evidence = evidence,
-        .view = view,
-        .finders = finders,
-        .frame = cameraFrame(&scene->camera, evidence->width, evidence->height),
-        .media = mediaAmong(scene, truth->transparent, truth->transparentCount, scene->camera.position),
-        .prediction = prediction};
+        .truth = truth, .evidence = evidence, .finders = finders, .rays = rays, .prediction = prediction};
     status = runTasks((evidence->count + CHUNK - 1) / CHUNK, truth->threads, traceChunk, &tracing);
     if (!statusIsOk(&status))
         freePrediction(prediction);

@@ -21,7 +21,8 @@ enum {
     VECTOR_LENGTH = 84, /* of a unit vector in the plane */
     MOST_OBJECTS = 24,
     MOST_RAYS_DRAWN = 40,
-    MOST_SHADOW_RAYS = 12
+    MOST_SHADOW_RAYS = 12,
+    DISTANCE_DIGITS = 4
 };
 
 #define CAMERA_COLOR "#b45309"
@@ -235,7 +236,7 @@ static void drawSun(Drawing *drawing, DrawnPoint at, const Light *lamp, size_t n
     textAppendFormat(&name, "light %zu, %s", number + 1, lightKindName(lamp));
     if (isOutside && isfinite(distance)) {
         textAppend(&name, ", at distance ");
-        appendShortNumber(&name, distance);
+        textAppendRounded(&name, distance, DISTANCE_DIGITS);
     } else if (isOutside) {
         textAppend(&name, ", from infinitely far");
     }
@@ -450,7 +451,7 @@ static void appendDescription(Drawing *drawing)
         textAppend(&words, "meets ");
         appendObjectName(story->scene, ray->point.object, ray->point.hit.object, &words);
         textAppend(&words, " at distance ");
-        appendShortNumber(&words, ray->point.hit.distance);
+        textAppendRounded(&words, ray->point.hit.distance, DISTANCE_DIGITS);
         textAppend(&words, ".");
     } else {
         textAppend(&words, "meets nothing.");

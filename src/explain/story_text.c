@@ -158,7 +158,7 @@ static void sayRay(Teller *teller, const RayStory *ray)
                                         [RAY_MIRRORED] = "Mirrored ray",
                                         [RAY_REFRACTED] = "Refracted ray",
                                         [RAY_TOTALLY_REFLECTED] = "Totally reflected ray"};
-    sayHeading(teller, "%s%s", roles[ray->role], ray->depth > 1 ? "" : "");
+    sayHeading(teller, "%s", roles[ray->role]);
     teller->indent += 2;
     sayLine(teller, "origin      %v", ray->ray.origin);
     sayLine(teller, "direction   %v", ray->ray.direction);

@@ -1,8 +1,6 @@
 /* story_words.c - lines of text from formats that know vectors, colours and objects; see story_words.h. */
 #include "explain/story_words.h"
 
-#include "compare/rounding.h"
-
 #include <stdarg.h>
 
 enum {
@@ -11,8 +9,7 @@ enum {
 
 static void appendNumber(Text *text, double value)
 {
-    char buffer[NUMBER_TEXT_SIZE];
-    textAppend(text, formatRounded(buffer, value == 0 ? 0 : value, DIGITS));
+    textAppendRounded(text, value, DIGITS);
 }
 
 static void appendTriple(Text *text, double x, double y, double z)

@@ -1,9 +1,6 @@
 /* svg_pieces.c - the pieces that a drawing is put together from; see svg_pieces.h. */
 #include "explain/svg_pieces.h"
 
-#include "compare/rounding.h"
-
-#include <math.h>
 #include <string.h>
 
 void appendEscaped(Text *text, const char *words)
@@ -28,12 +25,6 @@ void appendEscaped(Text *text, const char *words)
         }
         c += length;
     }
-}
-
-void appendShortNumber(Text *text, double value)
-{
-    char buffer[NUMBER_TEXT_SIZE];
-    textAppend(text, formatRounded(buffer, value == 0 ? 0 : value, 4));
 }
 
 void appendAttribute(Text *text, const char *name, double value)

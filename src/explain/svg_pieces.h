@@ -13,9 +13,6 @@
 /* Append text with what XML keeps for itself escaped, and what it cannot hold replaced by '?'. */
 void appendEscaped(Text *text, const char *words);
 
-/* Append a number with four significant digits. */
-void appendShortNumber(Text *text, double value);
-
 /* Append ` name="value"`, the value in pixels. */
 void appendAttribute(Text *text, const char *name, double value);
 

@@ -50,9 +50,9 @@ static void tellPower(const Trait *trait, double number, const Scene *scene, Tex
     (void)scene;
     textAppend(text, trait->choice == 0 ? "the stored samples are raised to the power "
                                         : "linear light is raised to the power ");
-    appendRounded(text, number, 3);
+    textAppendRounded(text, number, 3);
     textAppend(text, number > 1 ? " (a gamma of " : " (a gamma of 1/");
-    appendRounded(text, number > 1 ? number : 1 / number, 3);
+    textAppendRounded(text, number > 1 ? number : 1 / number, 3);
     textAppend(text, number > 1 ? " decoded once too often)" : " applied once too often)");
 }
 
@@ -68,7 +68,7 @@ static void tellScale(const Trait *trait, double number, const Scene *scene, Tex
 {
     (void)scene;
     textAppend(text, trait->choice == 0 ? "all light is " : "all stored samples are ");
-    appendRounded(text, number, 4);
+    textAppendRounded(text, number, 4);
     textAppend(text,
                trait->choice == 0 ? " times as much as it should be" : " times as high as they should be");
 }
@@ -83,7 +83,7 @@ static void tellOffset(const Trait *trait, double number, const Scene *scene, Te
 {
     (void)scene;
     textAppend(text, number > 0 ? "an ambient light of " : "an ambient light of ");
-    appendRounded(text, fabs(number), 3);
+    textAppendRounded(text, fabs(number), 3);
     textAppend(text, number > 0 ? " is added " : " is missing ");
     textAppend(text, trait->choice == OFFSET_EVERYWHERE    ? "everywhere, the background included"
                      : trait->choice == OFFSET_ON_SURFACES ? "on all surfaces, whatever their colour"
@@ -99,7 +99,7 @@ static void applyStoredOffset(const Trait *trait, double number, Hypothesis *hyp
 static void tellStoredOffset(const Trait *trait, double number, const Scene *scene, Text *text)
 {
     (void)scene;
-    appendRounded(text, fabs(number), 3);
+    textAppendRounded(text, fabs(number), 3);
     textAppend(text, number > 0 ? " is added to the stored samples " : " is taken from the stored samples ");
     textAppend(text, trait->choice == 0 ? "everywhere, as if all were lit a little"
                                         : "of all surfaces, as by an ambient light after the encoding");
@@ -217,7 +217,7 @@ static void tellStretch(const Trait *trait, double number, const Scene *scene, T
     (void)scene;
     static const char *const WAYS[] = {"the picture shows ", "the picture shows ", "the picture shows "};
     textAppend(text, WAYS[trait->choice]);
-    appendRounded(text, number, 3);
+    textAppendRounded(text, number, 3);
     textAppend(text, trait->choice == 0 ? " times its width in the same space: the aspect of the picture is "
                                           "not that of the camera"
                      : trait->choice == 1

@@ -156,6 +156,19 @@ static Status readOnce(SceneReader *reader, FileKind kind, const char *path, Sce
     }
 }
 
+/* Let the scene know that the file was read; false when memory runs out. */
+static bool noteFile(Scene *scene, const char *path)
+{
+    size_t size = strlen(path) + 1;
+    SceneFileName *name = allocateInScene(scene, sizeof *name + size);
+    if (name == NULL)
+        return false;
+    memcpy(name->path, path, size);
+    name->next = scene->files;
+    scene->files = name;
+    return true;
+}
+
 /* What is said of a file that could not be read; NULL when memory runs out. */
 static char *describeProblem(const char *path, const Status *status)
 {
@@ -195,6 +208,8 @@ static const SceneFile *findFile(SceneReader *reader, Place place, FileKind kind
         const char *path = files->names.names[number].text + 1;
         Status status = readOnce(reader, kind, path, read);
         Status noMemory = statusOutOfMemory();
+        if (statusIsOk(&status) && !noteFile(reader->scene, path))
+            status = statusOutOfMemory();
         if (status.code == STATUS_INTERRUPTED)
             reader->interrupted = true;
         else if (strcmp(status.message, noMemory.message) == 0)

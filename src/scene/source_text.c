@@ -66,7 +66,9 @@ static bool isInRanges(uint32_t character, const Range *ranges, size_t count)
     return false;
 }
 
-bool isUnprintable(uint32_t character)
+/* Whether a terminal or an editor could take the character for something else than a character to
+ * show: control characters, and those that change the direction of writing. */
+static bool isUnprintable(uint32_t character)
 {
     static const Range unprintable[] = {{0x00, 0x1F},     {0x7F, 0x9F},     {0x200B, 0x200F},
                                         {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF},

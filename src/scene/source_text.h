@@ -43,10 +43,6 @@ const char *sourceCharacter(SourceText *source, int line, int column);
  * 4) UINT32_MAX, *size then being 1. */
 uint32_t decodeUtf8(const char *s, const char *end, size_t *size);
 
-/* Whether a terminal or an editor could take the character for something else than a character to
- * show: control characters, and those that change the direction of writing. */
-bool isUnprintable(uint32_t character);
-
 /* The columns it takes on a terminal: 0 for combining marks, 2 for wide characters, else 1. */
 int displayWidth(uint32_t character);
 

@@ -9,57 +9,15 @@
  */
 'use strict';
 const fs = require('node:fs');
-const os = require('node:os');
 const path = require('node:path');
 const { spawnSync } = require('node:child_process');
-const { pathToFileURL } = require('node:url');
+const { root, skip, test, same, holds, openPage, brightness, run } = require('./harness.js');
 
-const root = path.join(__dirname, '..', '..');
-const skip = (reason) => { console.log(`1..0 # SKIP ${reason}`); process.exit(0); };
-
-const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => fs.existsSync(file));
-if (!executablePath) skip('chromium is not installed (make setup installs it)');
-let chromium;
-try { ({ chromium } = require('playwright-core')); } catch { skip('playwright-core is not installed (make setup installs it)'); }
 const hasChapters = ['en', 'fr'].some((language) => fs.existsSync(path.join(root, 'notes', language)));
 if (!process.argv[2]) {
   if (!hasChapters) skip('there are no chapters yet');
   if (process.env.ECLAIRAGE_SANITIZED) skip('the notes show what the program without sanitizers does');
   for (const tool of ['pandoc', 'jq', 'povray']) if (spawnSync(tool, ['--version']).error) skip(`${tool} is not installed (make setup installs it)`);
-}
-
-/* --- TAP --- */
-
-let number = 0, failures = 0;
-async function test(name, body) {
-  number++;
-  try {
-    await body();
-    console.log(`ok ${number} - ${name}`);
-  } catch (error) {
-    failures++;
-    console.log(`not ok ${number} - ${name}`);
-    for (const line of String(error.stack || error).split('\n').slice(0, 8)) console.log(`# ${line}`);
-  }
-}
-function same(found, wanted, what) {
-  if (JSON.stringify(found) !== JSON.stringify(wanted)) throw new Error(`${what}: found ${JSON.stringify(found)}, not ${JSON.stringify(wanted)}`);
-}
-function holds(condition, what) { if (!condition) throw new Error(what); }
-
-/* --- Pages --- */
-
-let browser;
-async function openPage(file, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1200, height: 900 }, ...options });
-  const page = await context.newPage();
-  page.setDefaultTimeout(5000);
-  page.complaints = [];
-  page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) page.complaints.push(`${message.type()}: ${message.text()}`); });
-  page.on('pageerror', (error) => page.complaints.push(`exception: ${error.message}`));
-  page.on('request', (request) => { if (!request.url().startsWith('data:') && request.url().split('#')[0] !== pathToFileURL(file).href) page.complaints.push(`request: ${request.url()}`); });
-  await page.goto(pathToFileURL(file).href);
-  return page;
 }
 
 /* Elements that stick out of the window and are not inside a box that scrolls by itself. */
@@ -121,14 +79,13 @@ async function testPage(file, name) {
 /* What a page does, on the chapter that has a slider and an exercise. */
 async function testBehaviour(file, name) {
   const page = await openPage(file, { colorScheme: 'dark' });
-  const brightness = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((a, b) => a + +b, 0));
   await test(`${name}: the theme button overrides the system, and the choice is kept`, async () => {
-    holds(await brightness() < 150, 'the dark page is bright');
+    holds(await brightness(page) < 150, 'the dark page is bright');
     await page.locator('#theme-button').click();
-    holds(await brightness() > 600, 'the light page is dark');
+    holds(await brightness(page) > 600, 'the light page is dark');
     same(await page.locator('#theme-button').getAttribute('aria-pressed'), 'false', 'pressed');
     await page.reload();
-    holds(await brightness() > 600, 'the choice was forgotten');
+    holds(await brightness(page) > 600, 'the choice was forgotten');
   });
   await test(`${name}: the first key leads to the text, the focus can be seen`, async () => {
     await page.keyboard.press('Tab');
@@ -193,44 +150,26 @@ async function testBehaviour(file, name) {
   await plain.context().close();
 }
 
-async function main() {
-  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'eclairage-notes-'));
-  try {
-    let site = process.argv[2] && path.resolve(process.argv[2]);
-    if (!site && process.env.NOTES_SITE && fs.existsSync(process.env.NOTES_SITE)) site = process.env.NOTES_SITE;
-    if (!site) {
-      site = path.join(folder, 'site');
-      const program = path.resolve(root, process.env.ECLAIRAGE || 'build/eclairage');
-      const done = spawnSync(path.join(root, 'notes', 'make-notes.sh'), [site], { encoding: 'utf8', env: { ...process.env, ECLAIRAGE: program } });
-      /* 1: only a number is another, which tests/suites/notes.sh tells. */
-      if (done.status !== 0 && done.status !== 1) throw new Error(`notes/make-notes.sh failed: ${done.stderr}`);
-    }
-    browser = await chromium.launch({
-      executablePath,
-      args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
-    });
-    await testPage(path.join(site, 'index.html'), 'index.html');
-    for (const language of ['en', 'fr']) {
-      if (!fs.existsSync(path.join(site, language))) continue;
-      const names = fs.readdirSync(path.join(site, language)).filter((name) => name.endsWith('.html')).sort();
-      for (const name of names) await testPage(path.join(site, language, name), `${language}/${name}`);
-      const rich = names.find((name) => {
-        const text = fs.readFileSync(path.join(site, language, name), 'utf8');
-        return text.includes('class="wiper"') && text.includes('class="answer"');
-      });
-      await test(`${language}: there is a chapter with a slider and an exercise`, async () => holds(rich, 'none'));
-      if (rich) await testBehaviour(path.join(site, language, rich), `${language}/${rich}`);
-    }
-  } catch (error) {
-    number++;
-    failures++;
-    console.log(`not ok ${number} - the notes can be opened`);
-    for (const line of String(error.stack || error).split('\n')) console.log(`# ${line}`);
-  } finally {
-    if (browser) await browser.close();
-    fs.rmSync(folder, { recursive: true, force: true });
+run(async (folder) => {
+  let site = process.argv[2] && path.resolve(process.argv[2]);
+  if (!site && process.env.NOTES_SITE && fs.existsSync(process.env.NOTES_SITE)) site = process.env.NOTES_SITE;
+  if (!site) {
+    site = path.join(folder, 'site');
+    const program = path.resolve(root, process.env.ECLAIRAGE || 'build/eclairage');
+    const done = spawnSync(path.join(root, 'notes', 'make-notes.sh'), [site], { encoding: 'utf8', env: { ...process.env, ECLAIRAGE: program } });
+    /* 1: only a number is another, which tests/suites/notes.sh tells. */
+    if (done.status !== 0 && done.status !== 1) throw new Error(`notes/make-notes.sh failed: ${done.stderr}`);
   }
-  console.log(`1..${number}`);
-  process.exit(failures ? 1 : 0);
-}
-main();
+  await testPage(path.join(site, 'index.html'), 'index.html');
+  for (const language of ['en', 'fr']) {
+    if (!fs.existsSync(path.join(site, language))) continue;
+    const names = fs.readdirSync(path.join(site, language)).filter((name) => name.endsWith('.html')).sort();
+    for (const name of names) await testPage(path.join(site, language, name), `${language}/${name}`);
+    const rich = names.find((name) => {
+      const text = fs.readFileSync(path.join(site, language, name), 'utf8');
+      return text.includes('class="wiper"') && text.includes('class="answer"');
+    });
+    await test(`${language}: there is a chapter with a slider and an exercise`, async () => holds(rich, 'none'));
+    if (rich) await testBehaviour(path.join(site, language, rich), `${language}/${rich}`);
+  }
+});

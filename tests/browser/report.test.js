@@ -10,38 +10,10 @@
  */
 'use strict';
 const fs = require('node:fs');
-const os = require('node:os');
 const path = require('node:path');
 const zlib = require('node:zlib');
 const { spawnSync } = require('node:child_process');
-const { pathToFileURL } = require('node:url');
-
-const root = path.join(__dirname, '..', '..');
-const skip = (reason) => { console.log(`1..0 # SKIP ${reason}`); process.exit(0); };
-
-const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => fs.existsSync(file));
-if (!executablePath) skip('chromium is not installed (make setup installs it)');
-let chromium;
-try { ({ chromium } = require('playwright-core')); } catch { skip('playwright-core is not installed (make setup installs it)'); }
-
-/* --- TAP --- */
-
-let number = 0, failures = 0;
-async function test(name, body) {
-  number++;
-  try {
-    await body();
-    console.log(`ok ${number} - ${name}`);
-  } catch (error) {
-    failures++;
-    console.log(`not ok ${number} - ${name}`);
-    for (const line of String(error.stack || error).split('\n').slice(0, 8)) console.log(`# ${line}`);
-  }
-}
-function same(found, wanted, what) {
-  if (JSON.stringify(found) !== JSON.stringify(wanted)) throw new Error(`${what}: found ${JSON.stringify(found)}, not ${JSON.stringify(wanted)}`);
-}
-function holds(condition, what) { if (!condition) throw new Error(what); }
+const { root, test, same, holds, openPage, brightness, complaints, run } = require('./harness.js');
 
 /* --- The samples of a 16-bit RGB PNG, told apart from the page's own decoder by zlib and plain loops --- */
 
@@ -134,19 +106,6 @@ function makeRealPages(folder) {
 }
 
 /* --- Pages --- */
-
-let browser;
-const complaints = []; /* console errors and requests of all pages */
-
-async function openPage(file, options = {}, hash = '') {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
-  const page = await context.newPage();
-  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !message.text().includes('getImageData')) /* which only these tests call */ complaints.push(`${message.type()}: ${message.text()}`); });
-  page.on('pageerror', (error) => complaints.push(`exception: ${error.message}`));
-  page.on('request', (request) => { if (!request.url().startsWith('data:') && request.url().split('#')[0] !== pathToFileURL(file).href) complaints.push(`request: ${request.url()}`); });
-  await page.goto(pathToFileURL(file).href + hash);
-  return page;
-}
 
 /* Bring a scene to the screen and wait for its viewer. */
 async function openScene(page, id) {
@@ -427,13 +386,12 @@ async function testMixed(folder) {
 
   await test('light and dark: the system chooses, the button overrides, the choice is kept', async () => {
     const dark = await openPage(file, { colorScheme: 'dark' });
-    const brightness = () => dark.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((a, b) => a + +b, 0));
-    holds(await brightness() < 150, 'the dark page is bright');
+    holds(await brightness(dark) < 150, 'the dark page is bright');
     same(await dark.locator('#theme-button').getAttribute('aria-pressed'), 'true', 'pressed');
     await dark.keyboard.press('t');
-    holds(await brightness() > 600, 'the light page is dark');
+    holds(await brightness(dark) > 600, 'the light page is dark');
     await dark.reload();
-    holds(await brightness() > 600, 'the choice was forgotten');
+    holds(await brightness(dark) > 600, 'the choice was forgotten');
     await dark.context().close();
   });
   await test('without JavaScript: verdict, pictures, metrics, reasons, commands', async () => {
@@ -454,28 +412,11 @@ async function testMixed(folder) {
   });
 }
 
-async function main() {
-  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'eclairage-browser-'));
-  try {
-    makeFixture(folder);
-    browser = await chromium.launch({
-      executablePath,
-      args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
-    });
-    await testMixed(folder);
-    for (const name of ['mixed', 'agree', 'many']) await testEveryPage(path.join(folder, name, 'index.html'), name);
-    for (const file of makeRealPages(folder)) await testEveryPage(file, 'a comparison');
-    for (const file of process.argv.slice(2)) await testEveryPage(path.resolve(file), file);
-    await test('no page asked for anything outside itself, and none complained', async () => same(complaints, [], 'complaints'));
-    console.log(`1..${number}`);
-  } finally {
-    if (browser) await browser.close();
-    fs.rmSync(folder, { recursive: true, force: true });
-  }
-  process.exitCode = failures > 0 ? 1 : 0;
-}
-
-main().catch((error) => {
-  console.log(`Bail out! ${error.message}`);
-  process.exitCode = 1;
+run(async (folder) => {
+  makeFixture(folder);
+  await testMixed(folder);
+  for (const name of ['mixed', 'agree', 'many']) await testEveryPage(path.join(folder, name, 'index.html'), name);
+  for (const file of makeRealPages(folder)) await testEveryPage(file, 'a comparison');
+  for (const file of process.argv.slice(2)) await testEveryPage(path.resolve(file), file);
+  await test('no page asked for anything outside itself, and none complained', async () => same(complaints, [], 'complaints'));
 });

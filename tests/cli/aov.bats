@@ -114,7 +114,7 @@ END
 @test "the scene is not overwritten, and nothing is drawn that could not be written" {
     makeScene a-normal.png
     try 2 render a-normal.png -o a.png --aov depth,normal
-    hasText "$err" "a-normal.png would overwrite the scene itself"
+    hasText "$err" "writing a-normal.png would overwrite a-normal.png, which is read"
     makeScene s.yaml
     mkdir b-depth.png
     try 4 render s.yaml -o b.png --aov normal,depth

@@ -138,16 +138,6 @@ END
     isEmpty "$out"
 }
 
-@test "a scene is not overwritten by its own report" {
-    needs povray
-    makeScene s.pov
-    cp s.pov before
-    try 2 compare s.pov --out ./
-    hasText "$err" "eclairage: error: s.pov: the POV-Ray scene would overwrite the scene itself"
-    hasLine "$err" "eclairage: the report is ./index.html"
-    cmp s.pov before
-}
-
 @test "eleven scenes take little more time than one" {
     needs povray
     for i in 1 2 3 4 5 6 7 8 9 10 11; do

@@ -136,18 +136,3 @@ END
     try 2 render -o a.png -- -q -q
     hasText "$err" "'-q' is too many"
 }
-
-@test "a name that would overwrite the input is refused" {
-    makeScene s.yaml
-    cp s.yaml before
-    ln s.yaml link.png
-    try 2 render s.yaml -o s.yaml
-    hasLine "$err" "eclairage: error: -o s.yaml would overwrite s.yaml itself: choose another name"
-    try 2 render s.yaml -o link.png
-    try 2 pov s.yaml -o ./s.yaml
-    cmp s.yaml before
-    try 0 render -q s.yaml -o a.png
-    try 0 render -q s.yaml -o b.png
-    try 2 diff a.png b.png -o b.png
-    isPng b.png
-}

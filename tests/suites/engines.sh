@@ -6,11 +6,7 @@
 set -uo pipefail
 program=${ECLAIRAGE:-build/eclairage}
 build=${BUILD:-build}
-if ! "${MAKE:-make}" --no-print-directory BUILD="$build" SANITIZE="${SANITIZE-}" "$build/engines" >"$build/engines.log" 2>&1; then
-    sed 's/^/# /' "$build/engines.log"
-    echo 'Bail out! engines could not be built'
-    exit 1
-fi
+tests/property/build.sh engines || exit 1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 

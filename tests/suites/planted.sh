@@ -4,11 +4,7 @@
 # `build/planted --all -v SCENE.yaml` plants every mistake in a scene and shows what was said.
 set -uo pipefail
 build=${BUILD:-build}
-if ! "${MAKE:-make}" --no-print-directory BUILD="$build" SANITIZE="${SANITIZE-}" "$build/planted" >"$build/planted.log" 2>&1; then
-    sed 's/^/# /' "$build/planted.log"
-    echo 'Bail out! planted could not be built'
-    exit 1
-fi
+tests/property/build.sh planted || exit 1
 
 # Each run is one test; the plan of both stands here.
 "$build/planted" tests/property/scenes/*.yaml scenes/course/04-phong.yaml scenes/course/05-phong.yaml |

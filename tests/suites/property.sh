@@ -8,9 +8,5 @@ if ! command -v povray >/dev/null; then
     exit 0
 fi
 build=${BUILD:-build}
-if ! "${MAKE:-make}" --no-print-directory BUILD="$build" SANITIZE="${SANITIZE-}" "$build/crosscheck" >"$build/crosscheck.log" 2>&1; then
-    sed 's/^/# /' "$build/crosscheck.log"
-    echo 'Bail out! crosscheck could not be built'
-    exit 1
-fi
+tests/property/build.sh crosscheck || exit 1
 exec "$build/crosscheck" --seeds 1..24 --threads 8

@@ -4,9 +4,5 @@
 set -eu
 
 build=${BUILD:-build}
-if ! "${MAKE:-make}" --no-print-directory BUILD="$build" SANITIZE="${SANITIZE-}" "$build/stories" >"$build/stories.log" 2>&1; then
-    sed 's/^/# /' "$build/stories.log"
-    echo 'Bail out! stories could not be built'
-    exit 1
-fi
+tests/property/build.sh stories || exit 1
 exec "$build/stories" --seeds 1..200 --nasty 1..100

@@ -6,7 +6,6 @@
 #include "base/text.h"
 #include "compare/colormap.h"
 #include "compare/lettering.h"
-#include "compare/rounding.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -256,32 +255,6 @@ static void everyCharacterIsDrawn(void **unused)
     freeImage(&image);
 }
 
-static void numbersAreRounded(void **unused)
-{
-    (void)unused;
-    static const struct {
-        double value;
-        int digits;
-        const char *text;
-    } cases[] = {{0, 3, "0"},
-                 {0.123456, 3, "0.123"},
-                 {-0.123456, 3, "-0.123"},
-                 {99.96, 3, "100"},
-                 {0.1, 4, "0.1"},
-                 {1 / 3.0, 4, "0.3333"},
-                 {2 / 3.0, 1, "0.7"},
-                 {123456, 2, "120000"},
-                 {3 / 65535.0, 4, "4.578e-05"},
-                 {0.1 + 0.2, 15, "0.3"},
-                 {1e-300, 3, "1e-300"},
-                 {NAN, 3, "nan"},
-                 {-INFINITY, 3, "-inf"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char text[NUMBER_TEXT_SIZE];
-        assert_string_equal(formatRounded(text, cases[i].value, cases[i].digits), cases[i].text);
-    }
-}
-
 static void differentSizesAreRefused(void **unused)
 {
     (void)unused;
@@ -315,7 +288,6 @@ int main(void)
         cmocka_unit_test(equalPicturesSaySo),
         cmocka_unit_test(everySizeHasItsLegend),
         cmocka_unit_test(everyCharacterIsDrawn),
-        cmocka_unit_test(numbersAreRounded),
         cmocka_unit_test(differentSizesAreRefused),
         cmocka_unit_test(cancelledPictureIsNotMade),
     };

@@ -580,27 +580,6 @@ static void testPlaces(void **state)
     assertPlace(NULL, SCENE, "samples", "a formula");
 }
 
-static void assertRounded(double value, int digits, const char *expected)
-{
-    Text text = {0};
-    appendRounded(&text, value, digits);
-    assert_string_equal(textString(&text), expected);
-    textFree(&text);
-}
-
-static void testRounded(void **state)
-{
-    (void)state;
-    assertRounded(0, 3, "0");
-    assertRounded(0.031249, 3, "0.0312");
-    assertRounded(2, 3, "2");
-    assertRounded(-1.9999, 3, "-2");
-    assertRounded(0.99999, 3, "1");
-    assertRounded(123456, 3, "123000");
-    assertRounded(4.2049e-7, 2, "4.2e-07");
-    assertRounded(2.0 / 3, 1, "0.7");
-}
-
 static void testExplanations(void **state)
 {
     (void)state;
@@ -784,7 +763,6 @@ int main(void)
         cmocka_unit_test(testMisfit),
         cmocka_unit_test(testKeyLines),
         cmocka_unit_test(testPlaces),
-        cmocka_unit_test(testRounded),
         cmocka_unit_test(testExplanations),
         cmocka_unit_test(testOwnPictureHasNoCauses),
         cmocka_unit_test(testSearchFindsWhatWasChanged),

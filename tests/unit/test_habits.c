@@ -468,23 +468,6 @@ static void samplesAndGammaGoTogether(void **state)
     freeScene(&scene);
 }
 
-static void numbersAreWrittenWithAPoint(void **state)
-{
-    (void)state;
-    const struct {
-        double value;
-        int decimals;
-        const char *text;
-    } cases[] = {{0, 5, "0.00000"}, {0.194215, 4, "0.1942"}, {0.99999, 4, "1.0000"}, {12.34, 1, "12.3"},
-                 {7, 0, "7"},       {0.000004, 5, "0.00000"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Text text = {0};
-        appendFixed(&text, cases[i].value, cases[i].decimals);
-        assert_string_equal(textString(&text), cases[i].text);
-        textFree(&text);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -492,7 +475,6 @@ int main(void)
         cmocka_unit_test(allTogetherLookAsWrittenByHand),    cmocka_unit_test(anAreaLightKeepsItsGrid),
         cmocka_unit_test(habitsThatChangeNothingDoNotApply), cmocka_unit_test(povrayMakesTheSameMistakes),
         cmocka_unit_test(theCoursesSceneHasTheKnownNumbers), cmocka_unit_test(samplesAndGammaGoTogether),
-        cmocka_unit_test(numbersAreWrittenWithAPoint),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

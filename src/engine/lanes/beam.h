@@ -210,9 +210,8 @@ typedef struct SphereDepths {
 /* What the rays of a packet have in common with one sphere. */
 typedef struct OneSphere {
     float x, y, z, squaredRadius;
-    float margin;       /* of the discriminant: slope (2 r d + d^2), and its rounding */
-    float error;        /* d */
-    bool surelyOutside; /* the rays start outside it */
+    float margin; /* of the discriminant: slope (2 r d + d^2), and its rounding */
+    float error;  /* d */
 } OneSphere;
 
 static inline OneSphere pickSphere(const Beam *beam, const LocalSpheres *local, int i)

@@ -16,7 +16,7 @@ void PATH(drawTile)(const TileJob *job, int left, int top, uint32_t *lastBlocks,
             if (left + laneX(k) >= framebuffer->width || top + laneY(k) >= framebuffer->height)
                 tile.inPicture &= ~(1ull << k);
 
-    /* The mean of n x n rays, evenly spread; of one, through the middle. As renderPixel of the course's
+    /* The mean of n x n rays, evenly spread; of one, through the middle. As tracePixel of the course's
      * tracer. */
     VectorLanes sums;
     if (n > 1)

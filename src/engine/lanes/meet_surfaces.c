@@ -7,7 +7,7 @@
 
 void PATH(aimRays)(TileLanes *tile, int left, int top, double x, double y)
 {
-    const CameraFrame *frame = &tile->job->frame;
+    const CameraFrame *frame = &tile->job->rays.frame;
     int width = tile->job->framebuffer->width, height = tile->job->framebuffer->height;
     VectorLanes *origins = &tile->origins, *directions = &tile->directions;
     if (frame->projection == PROJECTION_ORTHOGRAPHIC) {
@@ -38,7 +38,7 @@ void PATH(aimRays)(TileLanes *tile, int left, int top, double x, double y)
 /* Make the bundle of the camera's rays: their frame, and where each goes in it. */
 static void bundleRays(TileLanes *tile)
 {
-    const CameraFrame *frame = &tile->job->frame;
+    const CameraFrame *frame = &tile->job->rays.frame;
     const CompiledScene *compiled = tile->job->compiled;
     Bundle *bundle = &tile->bundle;
     Vector3D x = normalize(frame->right), y = normalize(frame->up), z = frame->forward;

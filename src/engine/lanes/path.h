@@ -20,8 +20,7 @@
 typedef struct TileJob {
     const CompiledScene *compiled;
     Framebuffer *framebuffer;
-    CameraFrame frame;
-    Media media; /* round a perspective camera */
+    PixelRays rays;
 } TileJob;
 
 #ifdef LANE_PATH

@@ -553,7 +553,7 @@ static void shadeSingly(TileLanes *tile)
     EACH_SET(k, tile->simple | tile->secondary) {
         SurfacePoint point = lanePoint(tile, k);
         Ray ray = createRay(laneVector(&tile->origins, k), laneVector(&tile->directions, k));
-        Media media = cameraMedia(job, &ray);
+        Media media = cameraMedia(&job->rays, &ray);
         Color3f color;
         if ((tile->simple >> k & 1) != 0) {
             color = shade(finder, &point, &ray, &media, 1, tile->counts);
