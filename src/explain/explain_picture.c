@@ -3,6 +3,7 @@
 
 #include "base/cancel.h"
 #include "engine/engine.h"
+#include "explain/black_picture.h"
 #include "explain/local_difference.h"
 #include "explain/part_words.h"
 #include "explain/scene_lines.h"
@@ -482,6 +483,8 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
         else
             status = explainPart(picture, right, &truth, source, look, &findings, causes);
     }
+    if (statusIsOk(&status) && causes->count > 0 && isBlackPicture(picture))
+        status = appendBlackReasons(&truth, picture, right, &causes->items[0].text);
     freeTruth(&truth);
     free(traits);
     return status;

@@ -1,21 +1,21 @@
 /* part_place.c - the place and the size that an object would need; see part_search.h.
  *
  * The size alone and the place alone are looked for first: one by the golden section, the other in steps over
- * the picture and then by Nelder and Mead's method (1965, "A simplex method for function minimization"). Then
- * both together. What counts is always how far off the traced picture is.
+ * the picture and then downhill. Then both together. What counts is always how far off the traced picture is.
  */
+#include "explain/downhill.h"
 #include "explain/part_search.h"
 
 #include <math.h>
 
 enum {
-    MOST_NUMBERS = 4,    /* to the right, up, away, and the logarithm of the size */
-    SIMPLEX_STEPS = 90,  /* each traces the scene once or twice */
+    SIMPLEX_TURNS = 90,  /* each traces the scene once or twice */
     STEPS_TO_A_SIDE = 4, /* over the picture */
     GOLDEN_STEPS = 14
 };
 
-/* Tells how far off an object is that is moved along the camera's axes and scaled. */
+/* Tells how far off an object is that is moved along the camera's axes and scaled. The numbers are how far to
+ * the right, up and away it is moved, in sizes of it, and the logarithm of its scale. */
 typedef struct PlaceFit {
     PartSearch *search;
     PartChange change;
@@ -31,8 +31,9 @@ static void applyNumbers(const PlaceFit *fit, const double *numbers, PartChange 
     change->scale = exp(numbers[3]);
 }
 
-static double measureNumbers(PlaceFit *fit, const double *numbers)
+static double measureNumbers(void *context, const double numbers[MOST_NUMBERS])
 {
+    PlaceFit *fit = context;
     if (!(fabs(numbers[3]) < 3))
         return INFINITY;
     applyNumbers(fit, numbers, &fit->change);
@@ -89,72 +90,16 @@ static void fitPlaceRoughly(PlaceFit *fit, double numbers[MOST_NUMBERS])
     numbers[1] = best[1];
 }
 
-typedef struct Corner {
-    double numbers[MOST_NUMBERS];
-    double left;
-} Corner;
-
-static void sortCorners(Corner *corners, int count)
+/* Narrow down the first so many numbers; returns how far off they are then. */
+static double narrowDown(PlaceFit *fit, int dimensions, double numbers[MOST_NUMBERS])
 {
-    for (int i = 1; i < count; i++)
-        for (int j = i; j > 0 && corners[j].left < corners[j - 1].left; j--) {
-            Corner moved = corners[j];
-            corners[j] = corners[j - 1];
-            corners[j - 1] = moved;
-        }
-}
-
-/* The point from the middle of all corners but the last, so far from it on the line to the last one. */
-static Corner cornerAlong(PlaceFit *fit, const Corner *corners, int dimensions, double far)
-{
-    Corner made = {.left = INFINITY};
-    for (int k = 0; k < MOST_NUMBERS; k++) {
-        double middle = 0;
-        for (int i = 0; i < dimensions; i++)
-            middle += corners[i].numbers[k] / dimensions;
-        made.numbers[k] = middle + far * (corners[dimensions].numbers[k] - middle);
-    }
-    made.left = measureNumbers(fit, made.numbers);
-    return made;
-}
-
-/* Go downhill from the numbers in the first so many of them; returns how far off they are then. */
-static double goDownhill(PlaceFit *fit, int dimensions, double step, double numbers[MOST_NUMBERS])
-{
-    Corner corners[MOST_NUMBERS + 1];
-    for (int i = 0; i <= dimensions; i++) {
-        for (int k = 0; k < MOST_NUMBERS; k++)
-            corners[i].numbers[k] = numbers[k] + (k == i - 1 ? step : 0);
-        corners[i].left = measureNumbers(fit, corners[i].numbers);
-    }
-    sortCorners(corners, dimensions + 1);
-    for (int turn = 0; turn < SIMPLEX_STEPS && statusIsOk(&fit->search->status); turn++) {
-        Corner *last = &corners[dimensions];
-        if (corners[0].left <= 0.2 * fit->search->rounding || last->left - corners[0].left < 1e-9)
-            break;
-        Corner mirrored = cornerAlong(fit, corners, dimensions, -1);
-        if (mirrored.left < corners[0].left) {
-            Corner farther = cornerAlong(fit, corners, dimensions, -2);
-            *last = farther.left < mirrored.left ? farther : mirrored;
-        } else if (mirrored.left < corners[dimensions - 1].left) {
-            *last = mirrored;
-        } else {
-            Corner nearer = cornerAlong(fit, corners, dimensions, mirrored.left < last->left ? -0.5 : 0.5);
-            if (nearer.left < last->left) {
-                *last = nearer;
-            } else {
-                for (int i = 1; i <= dimensions; i++) {
-                    for (int k = 0; k < MOST_NUMBERS; k++)
-                        corners[i].numbers[k] = 0.5 * (corners[i].numbers[k] + corners[0].numbers[k]);
-                    corners[i].left = measureNumbers(fit, corners[i].numbers);
-                }
-            }
-        }
-        sortCorners(corners, dimensions + 1);
-    }
-    for (int k = 0; k < MOST_NUMBERS; k++)
-        numbers[k] = corners[0].numbers[k];
-    return corners[0].left;
+    Downhill downhill = {.measure = measureNumbers,
+                         .context = fit,
+                         .dimensions = dimensions,
+                         .step = 0.1,
+                         .enough = 0.2 * fit->search->rounding,
+                         .turns = SIMPLEX_TURNS};
+    return goDownhill(&downhill, numbers);
 }
 
 /* ---- What is tried ---- */
@@ -222,7 +167,7 @@ void tryPlaces(PartSearch *search, const PartChange *target)
     double size = numbers[3];
     numbers[3] = 0;
     fitPlaceRoughly(&fit, numbers);
-    double byPlace = goDownhill(&fit, 3, 0.1, numbers);
+    double byPlace = narrowDown(&fit, 3, numbers);
     tryNumbers(&fit, numbers, byPlace);
     if (isPartExact(search))
         return;
@@ -230,6 +175,6 @@ void tryPlaces(PartSearch *search, const PartChange *target)
         numbers[0] = numbers[1] = numbers[2] = 0;
         numbers[3] = size;
     }
-    double both = goDownhill(&fit, MOST_NUMBERS, 0.1, numbers);
+    double both = narrowDown(&fit, MOST_NUMBERS, numbers);
     tryNumbers(&fit, numbers, both);
 }

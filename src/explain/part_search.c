@@ -287,6 +287,8 @@ static void tryParts(PartSearch *search, const DifferenceOwners *owners)
     }
     for (size_t i = 0; i < count && i < FEW_OBJECTS && !isPartExact(search) && !isLarge; i++)
         tryPlaces(search, &objects[i]);
+    if (!isPartExact(search))
+        tryLampPlaces(search);
 }
 
 /* Measure what was found on many pixels; it must hold there too. */

@@ -57,6 +57,9 @@ bool isPartExact(const PartSearch *search);
 /* Try other colours of the lamps, each alone and all together. In part_colors.c. */
 void tryLampColors(PartSearch *search);
 
+/* Try each lamp elsewhere. In part_lamp_place.c. */
+void tryLampPlaces(PartSearch *search);
+
 /* Try other colours of the object's material, of it alone or of all objects with that material. In
  * part_colors.c. */
 void tryMaterialColors(PartSearch *search, const PartChange *target);

@@ -254,6 +254,30 @@ static void tellLampColor(const SceneSource *source, size_t number, Color3f foun
     }
 }
 
+static bool isMoved(const Light *found, const Light *asked)
+{
+    return norm(subVectors(found->position, asked->position)) > 0;
+}
+
+static void tellLamp(const PartChange *change, const Light *asked, const SceneSource *source, Text *text)
+{
+    const Light *found = &change->lamp;
+    if (found->falloff != asked->falloff) {
+        appendLamp(source, change->number, text);
+        textAppend(text, found->falloff == FALLOFF_NONE
+                             ? " is as strong at any distance: its falloff is missing"
+                             : " falls off by 1/d^2, and the scene says falloff: none");
+    } else if (isMoved(found, asked)) {
+        appendLamp(source, change->number, text);
+        textAppend(text, " shines from about ");
+        appendTriple(text, found->position.x, found->position.y, found->position.z);
+        textAppend(text, " where the scene says ");
+        appendTriple(text, asked->position.x, asked->position.y, asked->position.z);
+    } else {
+        tellLampColor(source, change->number, found->color, asked->color, text);
+    }
+}
+
 static void tellLamps(const PartChange *change, const Scene *scene, const SceneSource *source, Text *text)
 {
     bool isFirst = true;
@@ -281,7 +305,7 @@ static void tellChange(const PartChange *change, const Scene *scene, const Scene
     case PART_SHADOW:
         appendTarget(change, scene, text);
         textAppend(text, objectOf(change, scene)->noShadow
-                             ? " throws a shadow, and the scene says shadow: false"
+                             ? " throws a shadow, and the scene says casts_shadow: false"
                              : " throws no shadow; those of the other objects are right");
         break;
     case PART_FORMULA:
@@ -297,15 +321,7 @@ static void tellChange(const PartChange *change, const Scene *scene, const Scene
         tellLamps(change, scene, source, text);
         break;
     case PART_LAMP:
-        if (change->lamp.falloff == scene->lights[change->number].falloff) {
-            tellLampColor(source, change->number, change->lamp.color, scene->lights[change->number].color,
-                          text);
-            break;
-        }
-        appendLamp(source, change->number, text);
-        textAppend(text, change->lamp.falloff == FALLOFF_NONE
-                             ? " is as strong at any distance: its falloff is missing"
-                             : " falls off by 1/d^2, and the scene says falloff: none");
+        tellLamp(change, &scene->lights[change->number], source, text);
         break;
     }
 }
@@ -344,6 +360,8 @@ static Cause causeOf(const PartChange *change, const Scene *scene)
         const Light *asked = &scene->lights[change->number];
         if (change->lamp.falloff != asked->falloff)
             return CAUSE_FALLOFF;
+        if (isMoved(&change->lamp, asked))
+            return CAUSE_UNKNOWN;
         return colorIsBlack(change->lamp.color) || isMultiple(change->lamp.color, asked->color, &k)
                    ? CAUSE_EXPOSURE
                    : CAUSE_UNKNOWN;
