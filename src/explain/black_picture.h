@@ -11,9 +11,9 @@
 
 bool isBlackPicture(const Image *image);
 
-/* Append to what is told of a black picture, in brackets, that it may come from missing lights or from normals
- * that point inwards, if both would make the scene's picture black; else nothing. right: how the scene's own picture would be stored. STATUS_IO
- * when memory runs out, STATUS_INTERRUPTED when cancelled. */
+/* Append to what is told of a black picture, in brackets, that it may come from missing lights or from
+ * normals that point inwards, if both would make the scene's picture black; else nothing. right: how the
+ * scene's own picture would be stored. STATUS_IO when memory runs out, STATUS_INTERRUPTED when cancelled. */
 Status appendBlackReasons(const Truth *truth, const Image *black, const Image *right, Text *text);
 
 #endif

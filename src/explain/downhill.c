@@ -2,6 +2,7 @@
 #include "explain/downhill.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 /* A corner of the simplex. */
 typedef struct Corner {
@@ -81,7 +82,8 @@ double goDownhill(const Downhill *downhill, double numbers[MOST_NUMBERS])
     }
     sortCorners(corners, last + 1);
     for (int turn = 0; turn < downhill->turns && corners[0].value > downhill->enough; turn++) {
-        if (!(corners[last].value - corners[0].value > 1e-9))
+        bool isHopeless = turn >= downhill->hopeTurns && !(corners[0].value < downhill->hope);
+        if (isHopeless || !(corners[last].value - corners[0].value > 1e-9))
             break;
         improve(downhill, corners);
         sortCorners(corners, last + 1);

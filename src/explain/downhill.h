@@ -14,6 +14,8 @@ typedef struct Downhill {
     double step;    /* in which the numbers around the first ones are tried */
     double enough;  /* a value that need not become less */
     int turns;      /* at most; each takes the value one to dimensions + 2 times */
+    double hope; /* where the value is not below this after hopeTurns, there is no hope; INFINITY: always */
+    int hopeTurns;
 } Downhill;
 
 /* Go downhill from the numbers, which become the best ones found; returns the value there. It may be the

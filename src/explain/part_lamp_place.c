@@ -1,7 +1,7 @@
 /* part_lamp_place.c - the place that a lamp would need; see part_search.h.
  *
- * A lamp in the wrong place often has a wrong sign or two coordinates exchanged: these are looked at first, and
- * from the best of them, and from where the lamp is, the search goes downhill.
+ * A lamp in the wrong place often has a wrong sign or two coordinates exchanged: these are looked at first.
+ * From the best of them, or from where the scene has the lamp if that is better, the search goes downhill.
  */
 #include "explain/downhill.h"
 #include "explain/part_search.h"
@@ -39,7 +39,9 @@ static double goFrom(LampFit *fit, double numbers[MOST_NUMBERS])
                          .dimensions = DIMENSIONS,
                          .step = 0.15,
                          .enough = 0.2 * fit->search->rounding,
-                         .turns = SIMPLEX_TURNS};
+                         .turns = SIMPLEX_TURNS,
+                         .hope = HOPEFUL_SHARE * fit->search->before,
+                         .hopeTurns = SIMPLEX_TURNS / 3};
     return goDownhill(&downhill, numbers);
 }
 
@@ -99,9 +101,8 @@ void tryLampPlaces(PartSearch *search)
         double from[MOST_NUMBERS] = {light->position.x / fit.size, light->position.y / fit.size,
                                      light->position.z / fit.size, 0};
         double slip[MOST_NUMBERS];
-        if (findSlip(&fit, from, slip) < search->before)
-            tryPosition(&fit, slip, goFrom(&fit, slip));
-        if (!isPartExact(search))
-            tryPosition(&fit, from, goFrom(&fit, from));
+        double *start = findSlip(&fit, from, slip) < search->before ? slip : from;
+        double left = goFrom(&fit, start);
+        tryPosition(&fit, start, left);
     }
 }

@@ -9,7 +9,8 @@
 #include <math.h>
 
 enum {
-    SIMPLEX_TURNS = 90,  /* each traces the scene once or twice */
+    SIMPLEX_TURNS = 70, /* each traces the scene once or twice */
+    RESTARTS = 3,
     STEPS_TO_A_SIDE = 4, /* over the picture */
     GOLDEN_STEPS = 14
 };
@@ -20,6 +21,7 @@ typedef struct PlaceFit {
     PartSearch *search;
     PartChange change;
     Vector3D right, up, away; /* of unit length */
+    double distance;          /* from the camera, in sizes; INFINITY where it does not matter */
     double size;              /* of the object, in scene units; the unit of the moves */
 } PlaceFit;
 
@@ -90,7 +92,8 @@ static void fitPlaceRoughly(PlaceFit *fit, double numbers[MOST_NUMBERS])
     numbers[1] = best[1];
 }
 
-/* Narrow down the first so many numbers; returns how far off they are then. */
+/* Narrow down the first so many numbers; returns how far off they are then. A simplex that has shrunk on the
+ * way is opened again where it came to. */
 static double narrowDown(PlaceFit *fit, int dimensions, double numbers[MOST_NUMBERS])
 {
     Downhill downhill = {.measure = measureNumbers,
@@ -98,8 +101,15 @@ static double narrowDown(PlaceFit *fit, int dimensions, double numbers[MOST_NUMB
                          .dimensions = dimensions,
                          .step = 0.1,
                          .enough = 0.2 * fit->search->rounding,
-                         .turns = SIMPLEX_TURNS};
-    return goDownhill(&downhill, numbers);
+                         .turns = SIMPLEX_TURNS,
+                         .hope = HOPEFUL_SHARE * fit->search->before,
+                         .hopeTurns = SIMPLEX_TURNS / 3};
+    double left = goDownhill(&downhill, numbers);
+    for (int i = 0; i < RESTARTS && left < downhill.hope && left > downhill.enough; i++) {
+        downhill.step *= 0.7;
+        left = goDownhill(&downhill, numbers);
+    }
+    return left;
 }
 
 /* ---- What is tried ---- */
@@ -134,11 +144,45 @@ static void tryNumbers(PlaceFit *fit, const double *numbers, double left)
                                       roundTo(exact.offset.z, step));
         if (exact.scale != 1)
             rounded.scale = roundTo(exact.scale * given, given == 1 ? step / fit->size : step) / given;
+        if (fabs(rounded.scale - 1) < 1e-9)
+            rounded.scale = 1;
         if (rounded.scale > 0 && measurePart(search, &rounded) <= 1.02 * left + 0.05 * search->rounding)
             break;
         rounded = exact;
     }
     tryPart(search, &rounded, FITTED_PART_SHARE);
+}
+
+/* Where it has moved away, let it be smaller instead, and the other way round: it looks nearly the same. */
+static void exchangeDistanceForSize(const PlaceFit *fit, double numbers[MOST_NUMBERS])
+{
+    double ratio = isfinite(fit->distance) ? 1 + numbers[2] / fit->distance : 1;
+    if (!(ratio > 0.05))
+        return;
+    numbers[0] /= ratio;
+    numbers[1] /= ratio;
+    numbers[2] = 0;
+    numbers[3] -= log(ratio);
+}
+
+/* Find place and size together, from what was found alone. More pixels are looked at, since what tells an
+ * object that is near from one that is large is little. */
+static void fitFinely(PlaceFit *fit, double numbers[MOST_NUMBERS])
+{
+    PartSearch *search = fit->search;
+    const Evidence *few = search->evidence;
+    search->evidence = search->manyPixels;
+    double exchanged[MOST_NUMBERS];
+    for (int k = 0; k < MOST_NUMBERS; k++)
+        exchanged[k] = numbers[k];
+    tryNumbers(fit, numbers, narrowDown(fit, 3, numbers));
+    if (!isPartExact(search)) {
+        exchangeDistanceForSize(fit, exchanged);
+        tryNumbers(fit, exchanged, narrowDown(fit, MOST_NUMBERS, exchanged));
+    }
+    if (!isPartExact(search))
+        tryNumbers(fit, numbers, narrowDown(fit, MOST_NUMBERS, numbers));
+    search->evidence = few;
 }
 
 void tryPlaces(PartSearch *search, const PartChange *target)
@@ -155,26 +199,20 @@ void tryPlaces(PartSearch *search, const PartChange *target)
                     .right = normalize(frame.right),
                     .up = normalize(frame.up),
                     .away = frame.forward,
-                    .size = norm(subVectors(bounds.max, bounds.min))};
+                    .size = norm(subVectors(bounds.max, bounds.min)),
+                    .distance = INFINITY};
     fit.change.kind = PART_PLACE;
     if (!(fit.size > 0) || !isfinite(fit.size))
         return;
-    double numbers[MOST_NUMBERS] = {0, 0, 0, 0};
-    double bySize = fitSize(&fit, numbers);
-    tryNumbers(&fit, numbers, bySize);
+    if (frame.projection == PROJECTION_PERSPECTIVE)
+        fit.distance = norm(subVectors(middle, frame.position)) / fit.size;
+    double bySize[MOST_NUMBERS] = {0, 0, 0, 0}, byPlace[MOST_NUMBERS] = {0, 0, 0, 0};
+    double leftBySize = fitSize(&fit, bySize);
+    tryNumbers(&fit, bySize, leftBySize);
     if (isPartExact(search))
         return;
-    double size = numbers[3];
-    numbers[3] = 0;
-    fitPlaceRoughly(&fit, numbers);
-    double byPlace = narrowDown(&fit, 3, numbers);
-    tryNumbers(&fit, numbers, byPlace);
-    if (isPartExact(search))
-        return;
-    if (bySize < byPlace) {
-        numbers[0] = numbers[1] = numbers[2] = 0;
-        numbers[3] = size;
-    }
-    double both = narrowDown(&fit, MOST_NUMBERS, numbers);
-    tryNumbers(&fit, numbers, both);
+    fitPlaceRoughly(&fit, byPlace);
+    double leftByPlace = narrowDown(&fit, 3, byPlace);
+    if (fmin(leftBySize, leftByPlace) < HOPEFUL_SHARE * search->before)
+        fitFinely(&fit, leftBySize < leftByPlace ? bySize : byPlace);
 }

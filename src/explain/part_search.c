@@ -6,7 +6,8 @@
 #include <math.h>
 
 enum {
-    TRIED_PIXELS = 900,   /* that changes are tried on */
+    TRIED_PIXELS = 500,   /* that changes are tried on */
+    MANY_PIXELS = 2500,   /* that those are which are hard to tell apart */
     FULL_PIXELS = 120000, /* that the residual is measured on */
     TRIED_OBJECTS = 5,    /* at most */
     FEW_OBJECTS = 2,      /* where each costs much */
@@ -327,13 +328,15 @@ static size_t costOf(const Truth *truth)
 Status findPart(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding)
 {
     size_t cost = costOf(truth);
-    Evidence evidence = {.count = 0}, full = {.count = 0};
-    PartSearch search = {.truth = truth, .evidence = &evidence, .status = statusOk()};
+    Evidence evidence = {.count = 0}, many = {.count = 0}, full = {.count = 0};
+    PartSearch search = {.truth = truth, .evidence = &evidence, .manyPixels = &many, .status = statusOk()};
     search.rounding = wrong->bitDepth == 8 ? 0.4 / 255 : 0.6 / 65535;
     ViewChange view = neutralViewChange();
     LightChange light = neutralLightChange();
     PartFinding found = {0};
     Status status = gatherEvidence(wrong, right, TRIED_PIXELS / cost + 300, &evidence);
+    if (statusIsOk(&status))
+        status = gatherEvidence(wrong, right, MANY_PIXELS / cost + 300, &many);
     if (statusIsOk(&status))
         status = predictPixels(truth, &evidence, &view, &light, false, &search.right);
     if (statusIsOk(&status))
@@ -350,6 +353,7 @@ Status findPart(const Truth *truth, const Image *wrong, const Image *right, Part
         status = measureFully(&search, &full, &found);
     freePrediction(&search.right);
     freeEvidence(&evidence);
+    freeEvidence(&many);
     freeEvidence(&full);
     if (statusIsOk(&status))
         *finding = found;

@@ -31,9 +31,10 @@ void freePartFinding(PartFinding *finding);
 typedef struct PartSearch {
     const Truth *truth;
     const Evidence *evidence;
-    Prediction right; /* what the scene gives */
-    double before;    /* how far off that is */
-    double rounding;  /* what rounding alone may leave */
+    const Evidence *manyPixels; /* for what is hard to tell apart */
+    Prediction right;           /* what the scene gives */
+    double before;              /* how far off that is */
+    double rounding;            /* what rounding alone may leave */
     bool isFound, hasOther;
     PartChange best, other;
     double left;   /* with the best one; before where there is none */
@@ -53,6 +54,9 @@ bool isPartExact(const PartSearch *search);
 /* What must be left at most: a fifth; half of that where several numbers were fitted. */
 #define PART_SHARE 0.2
 #define FITTED_PART_SHARE 0.1
+
+/* What must be left after a third of the way downhill, to go on. */
+#define HOPEFUL_SHARE 0.75
 
 /* Try other colours of the lamps, each alone and all together. In part_colors.c. */
 void tryLampColors(PartSearch *search);
