@@ -16,11 +16,6 @@ static const double NAMED_SHARE = 0.05;
 
 /* ---- Names and numbers ---- */
 
-static const Object *objectOf(const PartChange *change, const Scene *scene)
-{
-    return &scene->objects[change->number];
-}
-
 /* The part of a solid that has the material, or the object itself. */
 static const Object *findPartOf(const Object *object, const Material *material)
 {
@@ -32,6 +27,15 @@ static const Object *findPartOf(const Object *object, const Material *material)
             return part;
     }
     return NULL;
+}
+
+/* The object that is meant; of a whole material the first one in the scene. */
+static const Object *objectOf(const PartChange *change, const Scene *scene)
+{
+    for (size_t i = 0; change->wholeMaterial && i < scene->objectCount; i++)
+        if (findPartOf(&scene->objects[i], change->ofMaterial) != NULL)
+            return &scene->objects[i];
+    return &scene->objects[change->number];
 }
 
 static const Object *partOf(const PartChange *change, const Scene *scene)
