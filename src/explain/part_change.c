@@ -156,7 +156,7 @@ static Status predictObjects(const Truth *truth, const Evidence *evidence, const
     return status;
 }
 
-/* ---- Other lamps, on the surfaces that are there ---- */
+/* ---- Other lamps and another background, with the surfaces that are there ---- */
 
 typedef struct RelitFinder {
     SurfaceFinder finder;
@@ -178,7 +178,7 @@ static Color3f findLight(const SurfaceFinder *finder, const ShadowRay *shadow, C
     return baseOf(finder)->lightAlong(baseOf(finder), shadow, color);
 }
 
-static Status predictLamps(const Truth *truth, const Evidence *evidence, const PartChange *change,
+static Status predictRelit(const Truth *truth, const Evidence *evidence, const PartChange *change,
                            Prediction *prediction)
 {
     Scene variant;
@@ -193,6 +193,8 @@ static Status predictLamps(const Truth *truth, const Evidence *evidence, const P
     /* The surfaces are those of the scene itself, which the finder knows. */
     Scene relit = *truth->scene;
     relit.lights = variant.lights;
+    if (change->kind == PART_BACKGROUND)
+        relit.background = change->background;
     RelitFinder finder = {.finder = {.scene = &relit, .nearest = findNearest, .lightAlong = findLight},
                           .base = truth->finder};
     Truth changed = *truth;
@@ -208,8 +210,8 @@ static Status predictLamps(const Truth *truth, const Evidence *evidence, const P
 Status predictPart(const Truth *truth, const Evidence *evidence, const PartChange *change,
                    Prediction *prediction)
 {
-    if (change->kind == PART_LAMP || change->kind == PART_ALL_LAMPS)
-        return predictLamps(truth, evidence, change, prediction);
+    if (change->kind == PART_LAMP || change->kind == PART_ALL_LAMPS || change->kind == PART_BACKGROUND)
+        return predictRelit(truth, evidence, change, prediction);
     if (change->kind != PART_FORMULA)
         return predictObjects(truth, evidence, change, prediction);
     ViewChange view = neutralViewChange();

@@ -17,6 +17,7 @@ typedef enum PartKind {
     PART_PLACE,     /* the object is moved by offset, and scale times as large about its middle */
     PART_LAMP,      /* the lamp is another one: lamp */
     PART_ALL_LAMPS, /* the lamps have other colours: lampColors */
+    PART_BACKGROUND /* the background has other colours: background */
 } PartKind;
 
 enum {
@@ -34,6 +35,7 @@ typedef struct PartChange {
     double scale;
     Light lamp;
     Color3f lampColors[MOST_LAMPS];
+    Background background;
 } PartChange;
 
 /* How many objects of the scene have the material, or a part that has it. */

@@ -146,6 +146,32 @@ void tryLampColors(PartSearch *search)
     freePalette(&all);
 }
 
+/* ---- The background ---- */
+
+static void applyBackground(const Palette *palette, float colors[][3], PartChange *change)
+{
+    change->background = palette->scene->background;
+    change->background.bottom = createColor(colors[0][0], colors[0][1], colors[0][2]);
+    if (palette->count > 1)
+        change->background.top = createColor(colors[1][0], colors[1][1], colors[1][2]);
+}
+
+void tryBackground(PartSearch *search)
+{
+    const Scene *scene = search->truth->scene;
+    PartChange change = {.kind = PART_BACKGROUND, .background = scene->background}, more = change;
+    Palette palette = {.apply = applyBackground, .scene = scene, .target = &change};
+    more.background.bottom = oneMore(scene->background.bottom);
+    addTerm(search, &palette, &more, scene->background.bottom);
+    if (scene->background.isGradient) {
+        more = change;
+        more.background.top = oneMore(scene->background.top);
+        addTerm(search, &palette, &more, scene->background.top);
+    }
+    tryPalette(search, &palette, &search->right, PART_SHARE);
+    freePalette(&palette);
+}
+
 /* ---- Materials ---- */
 
 typedef enum MaterialColor {

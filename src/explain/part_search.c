@@ -272,6 +272,8 @@ static void tryParts(PartSearch *search, const DifferenceOwners *owners)
     tryLamps(search);
     if (!isPartExact(search))
         tryLampColors(search);
+    if (!isPartExact(search) && owners->onBackground > 0)
+        tryBackground(search);
     for (int whole = 0; whole < 2; whole++) {
         for (size_t i = 0; i < count && !isPartExact(search); i++) {
             PartChange target = objects[i];

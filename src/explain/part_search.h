@@ -61,6 +61,9 @@ bool isPartExact(const PartSearch *search);
 /* Try other colours of the lamps, each alone and all together. In part_colors.c. */
 void tryLampColors(PartSearch *search);
 
+/* Try another background. In part_colors.c. */
+void tryBackground(PartSearch *search);
+
 /* Try each lamp elsewhere. In part_lamp_place.c. */
 void tryLampPlaces(PartSearch *search);
 

@@ -296,6 +296,21 @@ static void tellLamps(const PartChange *change, const Scene *scene, const SceneS
     }
 }
 
+static void tellBackground(const Background *found, const Background *asked, Text *text)
+{
+    bool isFirst = true;
+    textAppend(text, "it is as if the background");
+    if (!asked->isGradient) {
+        textAppend(text, " were about ");
+        appendColor(text, found->bottom);
+        textAppend(text, " where the scene says ");
+        appendColor(text, asked->bottom);
+        return;
+    }
+    tellColor("the bottom", found->bottom, asked->bottom, &isFirst, text);
+    tellColor("the top", found->top, asked->top, &isFirst, text);
+}
+
 /* ---- The whole of it ---- */
 
 static void tellChange(const PartChange *change, const Scene *scene, const SceneSource *source, Text *text)
@@ -323,6 +338,9 @@ static void tellChange(const PartChange *change, const Scene *scene, const Scene
         break;
     case PART_ALL_LAMPS:
         tellLamps(change, scene, source, text);
+        break;
+    case PART_BACKGROUND:
+        tellBackground(&change->background, &scene->background, text);
         break;
     case PART_LAMP:
         tellLamp(change, &scene->lights[change->number], source, text);
@@ -383,6 +401,8 @@ static const char *formulaOf(const PartChange *change, Cause cause)
         return "of all objects that a ray meets, the nearest one is seen";
     case PART_PLACE:
         return "its place and its size";
+    case PART_BACKGROUND:
+        return "background, which a ray sees that meets no object";
     case PART_MATERIAL:
         if (!sameColors(change->material.reflection, change->ofMaterial->reflection))
             return "color = ... + reflection * mirrored";
@@ -440,7 +460,9 @@ void tellPart(const PartFinding *finding, const Scene *scene, const SceneSource 
     }
     int line = change->kind == PART_LAMP        ? lampLine(source, change->number)
                : change->kind == PART_ALL_LAMPS ? lampLine(source, firstChangedLamp(change, scene))
-                                                : partOf(change, scene)->line;
+               : change->kind == PART_BACKGROUND
+                   ? (source != NULL && source->text != NULL ? findKeyLine(source->text, "background") : 0)
+                   : partOf(change, scene)->line;
     appendLine(source, line, &told->where);
     textAppend(&told->where, formulaOf(change, cause));
 }
@@ -469,7 +491,7 @@ void tellOwners(const DifferenceOwners *owners, const Scene *scene, const SceneS
     bool hasBackground = owners->onBackground > NAMED_SHARE * owners->differing;
     if (named == 0 && !hasBackground)
         return;
-    textAppend(&told->text, "; they show ");
+    textAppend(&told->text, "; there the scene shows ");
     for (size_t i = 0; i < named; i++) {
         textAppend(&told->text, i == 0 ? "" : i + 1 < named || hasBackground ? ", " : " and ");
         tellOwner(&owners->items[i], scene, &told->text);

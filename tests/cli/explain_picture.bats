@@ -389,13 +389,13 @@ END
     [ -z "$ECLAIRAGE_SANITIZED" ] || skip "the search is slow here, and the same in the unit tests"
     makePictures
     # One that the scene does not have.
-    { cat s.yaml; echo '  - sphere: {center: [1, 0.7, -3], radius: 0.3, material: {diffuse: [0, 0, 1]}}'; } |
+    { cat s.yaml; echo '  - sphere: {center: [0.6, 0.4, -3], radius: 0.3, material: {diffuse: [0, 0, 1]}}'; } |
         sed '/^render/d' >other.yaml
     sed -i '/^render/d' s.yaml
     draw other.yaml other.png
     try 0 explain s.yaml other.png
     hasText "$out" "1. unknown: none of the mistakes that are known here fits; "
-    grep -qE "; they show the sphere of line 5 \([0-9.]+ % of it\)" "$out"
+    grep -qE "; there the scene shows the sphere of line 5 \([0-9.]+ % of it\)" "$out"
     grep -qE "^   look at: the pixels from \([0-9]+, [0-9]+\) to \([0-9]+, [0-9]+\), s.yaml:5$" "$out"
 }
 

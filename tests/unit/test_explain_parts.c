@@ -228,6 +228,11 @@ static void evenLamp(Scene *scene)
     scene->lights[1].color = createColor(8, 9, 12);
 }
 
+static void otherBackground(Scene *scene)
+{
+    scene->background.bottom = createColor(0.3f, 0.3f, 0.8f);
+}
+
 static void testColors(void **state)
 {
     (void)state;
@@ -255,6 +260,9 @@ static void testColors(void **state)
                "scene.yaml:6: ");
     assertTold(evenLamp, CAUSE_FALLOFF,
                "light 2 (line 7) is as strong at any distance: its falloff is missing", "scene.yaml:7: ");
+    assertTold(otherBackground, CAUSE_UNKNOWN,
+               "it is as if the background were about [0.3, 0.3, 0.8] where the scene says [0, 0, 0]",
+               "background, which a ray sees");
 }
 
 /* A solid is changed in the part whose surface it is. */
@@ -381,7 +389,7 @@ static void testOwners(void **state)
     Explanation told = {.cause = CAUSE_UNKNOWN};
     SceneSource source = {.name = "scene.yaml", .text = SCENE};
     tellOwners(owners, &original, &source, &told);
-    assert_non_null(strstr(textString(&told.text), "; they show the plane of line 9 ("));
+    assert_non_null(strstr(textString(&told.text), "; there the scene shows the plane of line 9 ("));
     assert_string_equal(textString(&told.where), ", scene.yaml:9");
     textFree(&told.text);
     textFree(&told.where);
