@@ -289,6 +289,7 @@ static void testSolids(void **state)
         textString(&found.causes.items[0].text),
         "it is as if the sphere of line 8 in the difference of line 5 had diffuse about [0.9, "
         "0.1, 0.1] where the scene says [0.2, 0.3, 0.4]");
+    assert_int_equal(countOfMaterial(&original, &original.objects[1].csg.parts[1].material), 1);
     freeFound(&found);
 }
 
@@ -508,6 +509,7 @@ static void testItemLines(void **state)
     assert_int_equal(findItemLine(BRACKETS, "lights", 1), 2);
     assert_int_equal(findItemLine(BRACKETS, "lights", 2), 3);
     assert_int_equal(findItemLine(BRACKETS, "lights", 3), 0);
+    assert_int_equal(findItemLine("lights: [\n  {a: {}, b: {}},\n  {c: {}}]\n", "lights", 1), 3);
     assert_int_equal(findItemLine("", "lights", 0), 0);
     assert_int_equal(findItemLine("lights:", "lights", 0), 0);
     assert_int_equal(findItemLine("lights: [", "lights", 0), 0);
