@@ -175,6 +175,10 @@ static void tryObject(PartSearch *search, const PartChange *target)
     tryFormulas(search, target);
     change.kind = PART_MATERIAL;
     change.material = *target->ofMaterial;
+    change.material.diffuse = change.material.specular = createColor(0, 0, 0);
+    change.material.pattern = NULL;
+    tryPart(search, &change, PART_SHARE); /* it sends no lamp's light back */
+    change.material = *target->ofMaterial;
     change.material.reflection = createColor(0, 0, 0);
     if (!colorIsBlack(target->ofMaterial->reflection))
         tryPart(search, &change, PART_SHARE);

@@ -183,6 +183,24 @@ static void testObjects(void **state)
                "scene.yaml:13: ");
 }
 
+static void blackFar(Scene *scene)
+{
+    scene->objects[FAR].material = createMaterial(createColor(0, 0, 0), createColor(0, 0, 0), 1);
+}
+
+/* Two mistakes that give the same picture are both told. */
+static void testWhatCannotBeToldApart(void **state)
+{
+    (void)state;
+    Found found = findPlanted(SCENE, blackFar, 8);
+    assert_true(found.finding.isFound && found.finding.hasOther);
+    const char *text = textString(&found.causes.items[0].text);
+    assert_non_null(strstr(text, "(the picture would be the same if this were so: "));
+    assert_non_null(strstr(text, "the normals point into the sphere of line 12"));
+    assert_non_null(strstr(text, "the sphere of line 12 had diffuse about [0, 0, 0]"));
+    freeFound(&found);
+}
+
 /* ---- Colours ---- */
 
 static void otherDiffuseOfShiny(Scene *scene)
@@ -520,9 +538,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(testObjects),          cmocka_unit_test(testColors),
         cmocka_unit_test(testSolids),           cmocka_unit_test(testPlaces),
-        cmocka_unit_test(testWhatIsNotClaimed), cmocka_unit_test(testOwners),
-        cmocka_unit_test(testFittedColors),     cmocka_unit_test(testDownhill),
-        cmocka_unit_test(testItemLines),
+        cmocka_unit_test(testWhatIsNotClaimed), cmocka_unit_test(testWhatCannotBeToldApart),
+        cmocka_unit_test(testOwners),           cmocka_unit_test(testFittedColors),
+        cmocka_unit_test(testDownhill),         cmocka_unit_test(testItemLines),
     };
     return cmocka_run_group_tests_name("explain: parts of a scene", tests, NULL, NULL);
 }
