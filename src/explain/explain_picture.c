@@ -3,7 +3,9 @@
 
 #include "base/cancel.h"
 #include "engine/engine.h"
+#include "explain/black_picture.h"
 #include "explain/local_difference.h"
+#include "explain/part_words.h"
 #include "explain/scene_lines.h"
 #include "explain/search.h"
 
@@ -17,6 +19,13 @@ static const double STRAY_SHARE = 1e-4;
 
 /* Of the pixels, so many must be specks for acne to be considered. */
 static const double SPECK_SHARE = 1.5e-3;
+
+/* What a mistake of the whole scene may leave of the difference, without a part being looked for that is
+ * wrong alone. */
+static const double WELL_EXPLAINED = 0.05;
+
+/* A part must leave less than this share of what such a mistake leaves. */
+static const double PART_LEAVES = 0.25;
 
 void freePictureExplanation(PictureExplanation *explanation)
 {
@@ -174,6 +183,18 @@ static void appendShare(Text *text, size_t part, size_t whole)
     textAppend(text, " %");
 }
 
+/* Where the scene has what the trait changes: the lamp that it is about, or the first line with its key. */
+static void tellPlaceOf(const Trait *trait, const SceneSource *source, Text *where)
+{
+    const char *name = source != NULL ? source->name : NULL, *text = source != NULL ? source->text : NULL;
+    bool isOfLamp = trait->other > 0 && (trait->cause == CAUSE_EXPOSURE || trait->cause == CAUSE_SHADOW);
+    int line = isOfLamp && text != NULL ? findItemLine(text, "lights", (size_t)trait->other - 1) : 0;
+    if (line > 0 && name != NULL)
+        textAppendFormat(where, "%s:%d: %s", name, line, trait->formula);
+    else
+        appendPlace(name, text, trait->key, trait->formula, where);
+}
+
 static void tellFindings(const Findings *findings, const Scene *scene, const SceneSource *source,
                          const char *swappedName, Explanations *causes)
 {
@@ -184,8 +205,7 @@ static void tellFindings(const Findings *findings, const Scene *scene, const Sce
         if (swappedName != NULL)
             textAppendFormat(&told->text, "in %s ", swappedName);
         trait->tell(trait, finding->number, scene, &told->text);
-        appendPlace(source != NULL ? source->name : NULL, source != NULL ? source->text : NULL, trait->key,
-                    trait->formula, &told->where);
+        tellPlaceOf(trait, source, &told->where);
     }
 }
 
@@ -242,7 +262,7 @@ static void tellLocal(const LocalDifference *local, double residual, Explanation
     textAppend(&told->text, " (to be sure, give the scene as the first of the two)");
 }
 
-static void tellUnknown(const Look *look, bool hasScene, Explanations *causes)
+static Explanation *tellUnknown(const Look *look, bool hasScene, Explanations *causes)
 {
     Explanation *told = addExplanation(causes, CAUSE_UNKNOWN, look->rmse);
     textAppend(&told->text, "none of the mistakes that are known here fits; ");
@@ -256,6 +276,7 @@ static void tellUnknown(const Look *look, bool hasScene, Explanations *causes)
                                        "found from the scene: give it as the first of the two");
     textAppendFormat(&told->where, "the pixels from (%d, %d) to (%d, %d)", look->left, look->top, look->right,
                      look->bottom);
+    return told;
 }
 
 static void tellAgreement(const Look *look, Text *summary)
@@ -419,6 +440,25 @@ static Status drawRight(const CompiledScene *compiled, const Image *like, int th
     return status;
 }
 
+/* Where no mistake that is made for the whole scene fits, or fits well: in which part it is. */
+static Status explainPart(const Image *picture, const Image *right, const Truth *truth,
+                          const SceneSource *source, const Look *look, const Findings *findings,
+                          Explanations *causes)
+{
+    PartFinding part;
+    Status status = findPart(truth, picture, right, &part);
+    if (!statusIsOk(&status))
+        return status;
+    if (part.isFound && part.residual < PART_LEAVES * shareLeft(findings) * findings->before)
+        tellPart(&part, truth->scene, source, causes);
+    else if (findings->count > 0)
+        tellFindings(findings, truth->scene, source, NULL, causes);
+    else
+        tellOwners(&part.owners, truth->scene, source, tellUnknown(look, true, causes));
+    freePartFinding(&part);
+    return status;
+}
+
 static Status explainFromScene(const Image *picture, const Image *right, const CompiledScene *compiled,
                                const Scene *scene, const SceneSource *source, int threads, const Look *look,
                                Explanations *causes)
@@ -436,13 +476,15 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
     Findings findings;
     status = searchCauses(&truth, picture, right, traits, &findings);
     if (statusIsOk(&status)) {
-        if (findings.count > 0)
+        if (shareLeft(&findings) <= WELL_EXPLAINED)
             tellFindings(&findings, scene, source, NULL, causes);
-        else if (isSpeckled(look))
+        else if (findings.count == 0 && isSpeckled(look))
             tellAcne(look->rmseButDarker, causes);
         else
-            tellUnknown(look, true, causes);
+            status = explainPart(picture, right, &truth, source, look, &findings, causes);
     }
+    if (statusIsOk(&status) && causes->count > 0 && isBlackPicture(picture))
+        status = appendBlackReasons(&truth, picture, right, &causes->items[0].text);
     freeTruth(&truth);
     free(traits);
     return status;

@@ -23,6 +23,19 @@ static Color3f findLight(const SurfaceFinder *finder, const ShadowRay *shadow, C
     return changed->base->lightAlong(changed->base, &longer, color);
 }
 
+/* As the scene has it, for the surfaces that the change is not made on. */
+static Color3f findUnchangedLight(const SurfaceFinder *finder, const ShadowRay *shadow, Color3f color)
+{
+    const SurfaceFinder *base = changedOf(finder)->base;
+    return base->lightAlong(base, shadow, color);
+}
+
+static bool asksForShadows(const ChangedFinder *changed)
+{
+    return changed->change.shadows == SHADOWS_UNASKED ||
+           (changed->change.shadows != SHADOWS_NONE && changed->base->scene->render.shadows);
+}
+
 /* The light that arrives, growing weaker as the change says. full gets what it would be without any falloff.
  */
 static ArrivingLight changedArriving(const LightChange *change, const Light *light, int sample,
@@ -79,11 +92,34 @@ static Color3f changedHighlight(const LightChange *change, ShadingModel model, c
     return blinn ? blinnHighlight(material, light, n, l, v) : specularHighlight(material, light, n, l, v);
 }
 
+static bool sameColor(Color3f a, Color3f b)
+{
+    return a.r == b.r && a.g == b.g && a.b == b.b;
+}
+
+bool sameMaterial(const Material *a, const Material *b)
+{
+    return sameColor(a->diffuse, b->diffuse) && sameColor(a->specular, b->specular) &&
+           a->shininess == b->shininess && sameColor(a->ambient, b->ambient) &&
+           sameColor(a->emission, b->emission) && sameColor(a->reflection, b->reflection) &&
+           sameColor(a->transmission, b->transmission) && a->ior == b->ior && a->model == b->model &&
+           a->pattern == b->pattern;
+}
+
+/* Whether the change is made at this point. */
+static bool isChangedAt(const LightChange *change, const SurfacePoint *point)
+{
+    return (change->onlyObject == NULL || change->onlyObject == point->object) &&
+           (change->onlyMaterial == NULL || sameMaterial(change->onlyMaterial, &point->hit.object->material));
+}
+
 /* As lightReturned, with the change. */
 static Color3f changedLightReturned(const SurfaceFinder *finder, const SurfacePoint *point,
                                     const Material *material, Vector3D v, RayCounts *counts)
 {
     const LightChange *change = &changedOf(finder)->change;
+    if (!isChangedAt(change, point))
+        return lightReturned(changedOf(finder)->base, point, material, v, counts);
     const Scene *scene = finder->scene;
     ShadingModel model = materialModel(scene, material);
     Material changed = *material;
@@ -109,12 +145,12 @@ static Color3f changedLightReturned(const SurfaceFinder *finder, const SurfacePo
                 continue;
 
             /* What is left of it after the shadows, as a share of each channel. */
-            bool asksShadow = scene->render.shadows && (int)i + 1 != change->shadowlessLight &&
+            bool asksShadow = asksForShadows(changedOf(finder)) && (int)i + 1 != change->shadowlessLight &&
                               !(isBehind && change->backUnshadowed);
             if (asksShadow) {
                 counts->shadow++;
                 ShadowRay shadow = shadowRayTo(scene, point, &arriving);
-                Color3f share = finder->lightAlong(finder, &shadow, createColor(1, 1, 1));
+                Color3f share = findLight(finder, &shadow, createColor(1, 1, 1));
                 if (colorIsBlack(share))
                     continue;
                 arriving.color = multColors(arriving.color, share);
@@ -142,12 +178,11 @@ static Color3f changedLightReturned(const SurfaceFinder *finder, const SurfacePo
 void createChangedFinder(const SurfaceFinder *base, const LightChange *change, ChangedFinder *finder)
 {
     *finder = (ChangedFinder){.base = base, .change = *change, .scene = *base->scene};
-    if (change->shadows == SHADOWS_NONE)
-        finder->scene.render.shadows = false;
-    if (change->shadows == SHADOWS_UNASKED)
-        finder->scene.render.shadows = true;
+    bool isOfAll = change->onlyObject == NULL && change->onlyMaterial == NULL;
+    if (isOfAll)
+        finder->scene.render.shadows = asksForShadows(finder);
     finder->finder = (SurfaceFinder){.scene = &finder->scene,
                                      .nearest = findNearest,
-                                     .lightAlong = findLight,
+                                     .lightAlong = isOfAll ? findLight : findUnchangedLight,
                                      .lightShader = changedLightReturned};
 }

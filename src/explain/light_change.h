@@ -9,6 +9,8 @@
 
 #include "raytracer.h"
 
+#include <stdbool.h>
+
 typedef enum ShadowMistake {
     SHADOWS_AS_SCENE,
     SHADOWS_NONE,     /* nothing blocks light */
@@ -68,7 +70,14 @@ typedef struct LightChange {
     double lightScale;      /* of the lamps, or of the one below */
     int scaledLight;        /* its number, from 1; 0: all */
     unsigned blockedLights; /* bit i: light i does not arrive */
+
+    /* The change is made on these surfaces only; NULL: on all. */
+    const Object *onlyObject;
+    const Material *onlyMaterial;
 } LightChange;
+
+/* Whether both are the same in all that an author can say of a material. */
+bool sameMaterial(const Material *a, const Material *b);
 
 /* The change that changes nothing. */
 static inline LightChange neutralLightChange(void)

@@ -341,6 +341,77 @@ shadowless='s/shadows: true/shadows: false/'
     printf '%s\n' "$image" 'background: {gradient: {bottom: 0, top: 0.4}}' | explained 's/top: 0.4/top: 0.2/' exposure
 }
 
+# A mistake in one part: planted CAUSE SED-SCRIPT TEXT LINE, where LINE of the scene is what to look at.
+planted() {
+    sed "$2" part.yaml >wrong.yaml
+    not cmp -s part.yaml wrong.yaml
+    draw wrong.yaml wrong.png
+    try 0 explain part.yaml wrong.png --json
+    causes "$1"
+    json --arg text "$3" --arg where "part.yaml:$4: " \
+        '.causes[0] | .text == $text and (.where | startswith($where)) and .residual < 0.001'
+}
+
+@test "a mistake in one object, one material or one lamp is named with its line" {
+    [ -z "$ECLAIRAGE_SANITIZED" ] || skip "the search is slow here, and the same in the unit tests"
+    cat >part.yaml <<'END'
+image: {width: 96, height: 72}
+camera: {position: [0, 1, 1], look_at: [0, 0, -5], fov: 50}
+materials: {shiny: {diffuse: [0.8, 0.3, 0.1], specular: 0.5, shininess: 20}}
+lights:
+  - point: {position: [-3, 4, 1], color: [20, 18, 16]}
+  - point: {position: [4, 3, -1], color: [8, 9, 12]}
+objects:
+  - plane: {point: [0, -1, 0], normal: [0, 1, 0]}
+  - sphere: {center: [-1.3, 0, -5], radius: 1, material: shiny}
+  - sphere: {center: [1, -0.4, -4], radius: 0.6, material: shiny}
+  - cube: {center: [1.5, -0.4, -6], size: 1.2, material: {diffuse: [0.1, 0.3, 0.7]}}
+END
+    planted unknown 10d "it is as if the sphere of line 10 were not there" 10
+    planted shadow '9s/}$/, casts_shadow: false}/' \
+        "the sphere of line 9 throws no shadow; those of the other objects are right" 9
+    planted unknown 's/0.8, 0.3, 0.1/0.1, 0.3, 0.6/' \
+        "it is as if the sphere of line 9 and the other object of its material had diffuse about [0.1, 0.3, 0.6] where the scene says [0.8, 0.3, 0.1]" 9
+    planted unknown 's/0.1, 0.3, 0.7/0.9, 0.3, 0.2/' \
+        "it is as if the cube of line 11 had diffuse about [0.9, 0.3, 0.2] where the scene says [0.1, 0.3, 0.7]" 11
+    planted unknown 's/8, 9, 12/2, 9, 20/' \
+        "light 2 (line 6) has about the color [2, 9, 20] where the scene says [8, 9, 12]" 6
+    planted exposure 6d "light 2 is missing" 6
+    planted unknown 's/radius: 1,/radius: 0.8,/' \
+        "it is as if the sphere of line 9 were 0.8 times as large: radius 0.8" 9
+
+    # The page has the same words.
+    try 0 explain part.yaml wrong.png --out page
+    hasText page/index.html "were 0.8 times as large: radius 0.8"
+}
+
+@test "where nothing fits, the objects that differ are named" {
+    [ -z "$ECLAIRAGE_SANITIZED" ] || skip "the search is slow here, and the same in the unit tests"
+    makePictures
+    # One that the scene does not have.
+    { cat s.yaml; echo '  - sphere: {center: [0.6, 0.4, -3], radius: 0.3, material: {diffuse: [0, 0, 1]}}'; } |
+        sed '/^render/d' >other.yaml
+    sed -i '/^render/d' s.yaml
+    draw other.yaml other.png
+    try 0 explain s.yaml other.png
+    hasText "$out" "1. unknown: none of the mistakes that are known here fits; "
+    grep -qE "; there the scene shows the sphere of line 5 \([0-9.]+ % of it\)" "$out"
+    grep -qE "^   look at: the pixels from \([0-9]+, [0-9]+\) to \([0-9]+, [0-9]+\), s.yaml:5$" "$out"
+}
+
+@test "a black picture cannot tell missing lights from flipped normals, and says so" {
+    makeScene s.yaml
+    sed 's/color: \[20, 20, 20\]/color: 0/' s.yaml >dark.yaml
+    draw dark.yaml dark.png
+    try 0 explain s.yaml dark.png --json
+    json '.causes[0].text | contains("the picture is black, as it is without lights, with normals that point into the objects")'
+    # With light of its own, a surface would be seen without lights: then it can tell.
+    makeScene lit.yaml
+    sed -i '5s/specular: 0.5/specular: 0.5, emission: 0.3/' lit.yaml
+    try 0 explain lit.yaml dark.png --json
+    json '.causes[0].text | contains("the picture is black") | not'
+}
+
 # Ctrl-C while a scene or two large pictures are searched, at several times.
 @test "Ctrl-C ends it within a second with 130" {
     cat >large.yaml <<'END'

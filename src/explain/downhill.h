@@ -1,0 +1,25 @@
+/* downhill.h - the least value of a function of a few numbers, of which nothing is known but its values:
+ * Nelder and Mead, "A simplex method for function minimization", The Computer Journal 7 (1965). */
+#ifndef ECLAIRAGE_EXPLAIN_DOWNHILL_H
+#define ECLAIRAGE_EXPLAIN_DOWNHILL_H
+
+enum {
+    MOST_NUMBERS = 4
+};
+
+typedef struct Downhill {
+    double (*measure)(void *context, const double numbers[MOST_NUMBERS]); /* INFINITY where it has no value */
+    void *context;
+    int dimensions; /* 1 .. MOST_NUMBERS; the numbers behind stay as they are */
+    double step;    /* in which the numbers around the first ones are tried */
+    double enough;  /* a value that need not become less */
+    int turns;      /* at most; each takes the value one to dimensions + 2 times */
+    double hope; /* where the value is not below this after hopeTurns, there is no hope; INFINITY: always */
+    int hopeTurns;
+} Downhill;
+
+/* Go downhill from the numbers, which become the best ones found; returns the value there. It may be the
+ * lowest place of a valley among several. */
+double goDownhill(const Downhill *downhill, double numbers[MOST_NUMBERS]);
+
+#endif
