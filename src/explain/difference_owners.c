@@ -105,21 +105,22 @@ static void tracePixels(const Truth *truth, const Evidence *evidence, const Pred
     NotingFinder noting = {.finder = {.scene = scene, .nearest = findNearest, .lightAlong = findLight},
                            .base = truth->finder,
                            .pixel = pixel};
-    CameraFrame frame = cameraFrame(&scene->camera, evidence->width, evidence->height);
+    PixelRays rays = createPixelRays(scene, evidence->width, evidence->height, truth->transparent,
+                                     truth->transparentCount);
     for (size_t i = 0; i < evidence->count && !cancelRequested(); i++) {
         const EvidencePixel *at = &evidence->pixels[i];
         pixel->number = i + 1;
         pixel->isFirst = true;
         pixel->weight = (double)at->weight;
         pixel->differs = differsFrom(evidence, right, i);
-        Ray ray = cameraRay(&frame, at->x + 0.5, at->y + 0.5, evidence->width, evidence->height);
+        Media media;
+        Ray ray = pixelRay(&rays, at->x + 0.5, at->y + 0.5, &media);
         Hit hit;
         if (pixel->differs) {
             owners->differing += pixel->weight;
             if (truth->finder->nearest(truth->finder, &ray, &hit) == NULL)
                 owners->onBackground += pixel->weight;
         }
-        Media media = mediaAmong(scene, truth->transparent, truth->transparentCount, ray.origin);
         RayCounts counts = {0};
         traceRay(&noting.finder, &ray, &media, 1, &counts);
     }

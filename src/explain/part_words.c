@@ -75,7 +75,7 @@ static void appendTriple(Text *text, double x, double y, double z)
     const double numbers[3] = {x, y, z};
     for (int i = 0; i < 3; i++) {
         textAppend(text, i == 0 ? "[" : ", ");
-        appendRounded(text, fabs(numbers[i]) < 1e-6 ? 0 : numbers[i], DIGITS);
+        textAppendRounded(text, fabs(numbers[i]) < 1e-6 ? 0 : numbers[i], DIGITS);
     }
     textAppend(text, "]");
 }
@@ -87,7 +87,7 @@ static void appendColor(Text *text, Color3f color)
 
 static void appendPercent(Text *text, double share)
 {
-    appendRounded(text, 100 * share, share < 0.1 ? 1 : 2);
+    textAppendRounded(text, 100 * share, share < 0.1 ? 1 : 2);
     textAppend(text, " %");
 }
 
@@ -137,9 +137,9 @@ static void tellFormula(const PartChange *change, const Scene *scene, Text *text
                       : "dot(N, L) is not clamped at 0, so lights behind the surface take light away, on ";
     } else {
         textAppend(text, "the highlight is that of shininess ");
-        appendRounded(text, light->shininessValue, DIGITS);
+        textAppendRounded(text, light->shininessValue, DIGITS);
         textAppend(text, " where the scene says ");
-        appendRounded(text, (double)change->ofMaterial->shininess, 4);
+        textAppendRounded(text, (double)change->ofMaterial->shininess, 4);
         opening = ", on ";
     }
     textAppend(text, opening);
@@ -202,7 +202,7 @@ static void tellPlace(const PartChange *change, const Scene *scene, Text *text)
     }
     if (isScaled) {
         textAppend(text, isMoved ? " and " : " were ");
-        appendRounded(text, change->scale, DIGITS);
+        textAppendRounded(text, change->scale, DIGITS);
         textAppend(text, " times as large");
     }
     if (object->transform != NULL || (object->kind != SHAPE_SPHERE && object->kind != SHAPE_CUBE))
@@ -217,7 +217,7 @@ static void tellPlace(const PartChange *change, const Scene *scene, Text *text)
     if (isScaled) {
         textAppend(text, isMoved ? ", " : "");
         textAppend(text, object->kind == SHAPE_SPHERE ? "radius " : "size ");
-        appendRounded(
+        textAppendRounded(
             text, change->scale * (object->kind == SHAPE_SPHERE ? object->sphere.radius : object->cube.size),
             DIGITS);
     }
@@ -248,7 +248,7 @@ static void tellLampColor(const SceneSource *source, size_t number, Color3f foun
         textAppend(text, " is off");
     } else if (isMultiple(found, asked, &k)) {
         textAppend(text, " is ");
-        appendRounded(text, k, DIGITS);
+        textAppendRounded(text, k, DIGITS);
         textAppend(text, " times as bright as it should be");
     } else {
         textAppend(text, " has about the color ");
