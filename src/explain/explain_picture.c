@@ -4,6 +4,7 @@
 #include "base/cancel.h"
 #include "engine/engine.h"
 #include "explain/local_difference.h"
+#include "explain/sample_rounding.h"
 #include "explain/scene_lines.h"
 #include "explain/search.h"
 
@@ -40,49 +41,20 @@ typedef struct Look {
     int left, top, right, bottom; /* of those that differ */
 } Look;
 
-static float sampleAt(const Image *image, int x, int y, int c)
-{
-    return (float)image->samples[3 * ((size_t)y * (size_t)image->width + (size_t)x) + (size_t)c] /
-           (float)imageMaxSample(image);
-}
-
-static float linearAt(const Image *image, int x, int y, int c)
-{
-    float v = sampleAt(image, x, y, c);
-    return image->encoding == ENCODING_SRGB ? srgbToLinear(v) : v;
-}
-
 /* A sample of other as it would be stored in the format of image. */
-static float storedLike(const Image *image, const Image *other, int x, int y, int c)
+static float storedLike(const Image *image, const Image *other, size_t sample)
 {
     if (image->encoding == other->encoding)
-        return sampleAt(other, x, y, c);
-    return image->encoding == ENCODING_SRGB ? linearToSrgb(linearAt(other, x, y, c))
-                                            : linearAt(other, x, y, c);
-}
-
-/* The linear light that a sample may stand for, with a step and a half of its rounding in all. */
-static void lightRange(const Image *image, int x, int y, int c, float *low, float *high)
-{
-    float v = sampleAt(image, x, y, c), reach = 0.75f / (float)imageMaxSample(image);
-    float from = fmaxf(v - reach, 0), to = fminf(v + reach, 1);
-    bool isCurved = image->encoding == ENCODING_SRGB;
-    *low = isCurved ? srgbToLinear(from) : from;
-    *high = isCurved ? srgbToLinear(to) : to;
-}
-
-/* Whether two samples of different encodings differ by more than rounding. */
-static bool areApart(const Image *a, const Image *b, int x, int y, int c)
-{
-    float aLow, aHigh, bLow, bHigh;
-    lightRange(a, x, y, c, &aLow, &aHigh);
-    lightRange(b, x, y, c, &bLow, &bHigh);
-    return aHigh < bLow || bHigh < aLow;
+        return sampleAsStored(other, sample);
+    float light = sampleAsLight(other, sample);
+    return image->encoding == ENCODING_SRGB ? linearToSrgb(light) : light;
 }
 
 static float brightness(const Image *image, int x, int y)
 {
-    return sampleAt(image, x, y, 0) + sampleAt(image, x, y, 1) + sampleAt(image, x, y, 2);
+    size_t sample = 3 * ((size_t)y * (size_t)image->width + (size_t)x);
+    return sampleAsStored(image, sample) + sampleAsStored(image, sample + 1) +
+           sampleAsStored(image, sample + 2);
 }
 
 /* Whether the pixel is a hole in what surrounds it. */
@@ -107,19 +79,17 @@ static Look lookAt(const Image *mine, const Image *other)
     double sum = 0, darkerSum = 0, brighterSum = 0;
     for (int y = 0; y < mine->height && !cancelRequested(); y++) {
         for (int x = 0; x < mine->width; x++) {
-            float most = 0, signedSum = 0;
+            size_t pixel = (size_t)y * (size_t)mine->width + (size_t)x;
+            float signedSum = 0;
             double pixelSum = 0;
-            bool isApart = false;
-            for (int c = 0; c < 3; c++) {
-                float d = sampleAt(mine, x, y, c) - storedLike(mine, other, x, y, c);
+            for (size_t i = 3 * pixel; i < 3 * pixel + 3; i++) {
+                float d = sampleAsStored(mine, i) - storedLike(mine, other, i);
                 pixelSum += (double)(d * d);
-                most = fmaxf(most, fabsf(d));
-                isApart = isApart || (mine->encoding != other->encoding && areApart(mine, other, x, y, c));
                 signedSum += d;
                 look.below += d < -0.5f * step;
                 look.above += d > 0.5f * step;
             }
-            if (mine->encoding == other->encoding ? most > 1.5f * step : isApart) {
+            if (pixelsDiffer(mine, other, pixel)) {
                 look.differing++;
                 look.darker += signedSum < 0;
                 look.brighter += signedSum > 0;

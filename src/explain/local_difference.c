@@ -1,6 +1,8 @@
 /* local_difference.c - see local_difference.h. */
 #include "explain/local_difference.h"
 
+#include "explain/sample_rounding.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,18 +23,12 @@ typedef struct Pair {
     unsigned char *isPart;
 } Pair;
 
-static float sampleAsLinear(const Image *image, size_t sample)
-{
-    float v = (float)image->samples[sample] / (float)imageMaxSample(image);
-    return image->encoding == ENCODING_SRGB ? srgbToLinear(v) : v;
-}
-
 static void readLinear(const Image *image, Color3f *pixels)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t i = 0; i < count; i++)
-        pixels[i] = createColor(sampleAsLinear(image, 3 * i), sampleAsLinear(image, 3 * i + 1),
-                                sampleAsLinear(image, 3 * i + 2));
+        pixels[i] = createColor(sampleAsLight(image, 3 * i), sampleAsLight(image, 3 * i + 1),
+                                sampleAsLight(image, 3 * i + 2));
 }
 
 static float sumOf(Color3f c)

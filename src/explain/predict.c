@@ -138,7 +138,8 @@ typedef struct Tracing {
     const Truth *truth;
     const Evidence *evidence;
     const ViewChange *view;
-    const ChangedFinder *finders; /* one for each alternative */
+    const LightChange *changes; /* one for each alternative */
+    PixelMemory *memories;      /* one for each pixel, or NULL */
     CameraFrame frame;
     Media media; /* round a perspective camera */
     Prediction *prediction;
@@ -170,14 +171,13 @@ static Color3f tracePixel(const Tracing *tracing, const SurfaceFinder *finder, c
     return createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
 }
 
-static ValuePlace findPlace(const Tracing *tracing, const EvidencePixel *pixel)
+static ValuePlace findPlace(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel)
 {
     double x = pixel->x + 0.5, y = pixel->y + 0.5;
     const Evidence *evidence = tracing->evidence;
     changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
     Ray ray = cameraRay(&tracing->frame, x, y, evidence->width, evidence->height);
     Hit hit;
-    const SurfaceFinder *finder = tracing->truth->finder;
     if (finder->nearest(finder, &ray, &hit) == NULL)
         return (ValuePlace){.isSurface = false};
     return (ValuePlace){.isSurface = true,
@@ -189,10 +189,17 @@ static void traceChunk(void *context, size_t number)
     const Tracing *tracing = context;
     Prediction *prediction = tracing->prediction;
     size_t end = (number + 1) * CHUNK < prediction->count ? (number + 1) * CHUNK : prediction->count;
+    RayCursor cursor;
+    RememberingFinder base;
+    ChangedFinder finders[MAX_ALTERNATIVES];
+    createRememberingFinder(tracing->truth->finder, &cursor, &base);
+    for (int a = 0; a < prediction->alternatives; a++)
+        createChangedFinder(&base.finder, &tracing->changes[a], &finders[a]);
     for (size_t i = number * CHUNK; i < end && !cancelRequested(); i++) {
         const EvidencePixel *pixel = &tracing->evidence->pixels[i];
         for (int a = 0; a < prediction->alternatives; a++) {
-            Color3f color = tracePixel(tracing, &tracing->finders[a].finder, pixel);
+            beginPixel(&cursor, tracing->memories != NULL ? &tracing->memories[i] : NULL);
+            Color3f color = tracePixel(tracing, &finders[a].finder, pixel);
             const float channels[3] = {color.r, color.g, color.b};
             for (size_t c = 0; c < 3; c++) {
                 prediction->low[a][3 * i + c] = prediction->high[a][3 * i + c] = channels[c];
@@ -200,7 +207,7 @@ static void traceChunk(void *context, size_t number)
                     prediction->middle[3 * i + c] = channels[c];
             }
         }
-        prediction->places[i] = findPlace(tracing, pixel);
+        prediction->places[i] = findPlace(tracing, &base.finder, pixel);
     }
 }
 
@@ -220,26 +227,27 @@ static int blockedWays(size_t lights, unsigned ways[MAX_ALTERNATIVES])
     return count;
 }
 
-static Status predictFromScene(const Truth *truth, const Evidence *evidence, const ViewChange *view,
-                               const LightChange *light, bool acne, Prediction *prediction)
+static Status predictFromScene(const Truth *truth, const Evidence *evidence, PixelMemory *memories,
+                               const ViewChange *view, const LightChange *light, bool acne,
+                               Prediction *prediction)
 {
     unsigned ways[MAX_ALTERNATIVES] = {0};
     int count = acne ? blockedWays(truth->scene->lightCount, ways) : 1;
     Status status = createPrediction(evidence->count, count, prediction);
     if (!statusIsOk(&status))
         return status;
-    ChangedFinder finders[MAX_ALTERNATIVES];
+    LightChange changes[MAX_ALTERNATIVES];
     for (int i = 0; i < count; i++) {
-        LightChange change = *light;
-        change.blockedLights = ways[i];
-        createChangedFinder(truth->finder, &change, &finders[i]);
+        changes[i] = *light;
+        changes[i].blockedLights = ways[i];
     }
     const Scene *scene = truth->scene;
     Tracing tracing = {
         .truth = truth,
         .evidence = evidence,
         .view = view,
-        .finders = finders,
+        .changes = changes,
+        .memories = memories,
         .frame = cameraFrame(&scene->camera, evidence->width, evidence->height),
         .media = mediaAmong(scene, truth->transparent, truth->transparentCount, scene->camera.position),
         .prediction = prediction};
@@ -249,11 +257,11 @@ static Status predictFromScene(const Truth *truth, const Evidence *evidence, con
     return status;
 }
 
-Status predictPixels(const Truth *truth, const Evidence *evidence, const ViewChange *view,
-                     const LightChange *light, bool acne, Prediction *prediction)
+Status predictPixels(const Truth *truth, const Evidence *evidence, PixelMemory *memories,
+                     const ViewChange *view, const LightChange *light, bool acne, Prediction *prediction)
 {
     if (truth->scene != NULL)
-        return predictFromScene(truth, evidence, view, light, acne, prediction);
+        return predictFromScene(truth, evidence, memories, view, light, acne, prediction);
     if (cancelRequested())
         return statusInterrupted();
     Status status = createPrediction(evidence->count, 1, prediction);

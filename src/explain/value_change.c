@@ -53,7 +53,7 @@ void storedSamples(const ValueChange *change, StoredFormat format, const ValuePl
         int times = (format.encoding == ENCODING_SRGB) + (change->encoding == ENCODED_TWICE) -
                     (change->encoding == NOT_ENCODED);
         for (; times > 0; times--)
-            v = linearToSrgb(v);
+            v = change->curvePower > 0 ? powf(v, change->curvePower) : linearToSrgb(v);
         if (times < 0)
             v = srgbToLinear(v);
         if (change->storedPower != 1)

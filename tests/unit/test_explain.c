@@ -3,6 +3,7 @@
 #include "explain/evidence.h"
 #include "explain/explain_picture.h"
 #include "explain/light_change.h"
+#include "explain/sample_rounding.h"
 #include "explain/scene_lines.h"
 #include "explain/search.h"
 #include "explain/value_change.h"
@@ -455,8 +456,11 @@ static size_t countEvidence(int whitePixels, size_t most, size_t *white)
 {
     Image wrong = makeImage(20, 10, whitePixels), right = makeImage(20, 10, 0);
     Evidence evidence;
-    Status status = gatherEvidence(&wrong, &right, most, &evidence);
+    bool *isDifferent = findDifferentPixels(&wrong, &right);
+    assert_non_null(isDifferent);
+    Status status = gatherEvidence(&wrong, isDifferent, most, &evidence);
     assert_true(statusIsOk(&status));
+    free(isDifferent);
     double sum = 0, whiteSum = 0;
     *white = 0;
     for (size_t i = 0; i < evidence.count; i++) {
