@@ -405,6 +405,9 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
     listPossibleTraits(scene, picture, right, look, traits);
     Findings findings;
     status = searchCauses(&truth, picture, right, traits, &findings);
+    /* A picture that was drawn right and changed afterwards has edges and borders that no tracing gives. */
+    if (statusIsOk(&status) && findings.count == 0)
+        status = searchFrom(picture, right, look, traits, &findings);
     if (statusIsOk(&status)) {
         if (findings.count > 0)
             tellFindings(&findings, scene, source, NULL, causes);

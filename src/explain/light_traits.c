@@ -6,6 +6,7 @@
 /* ---- Numbers to try ---- */
 
 static const double EXPONENTS[] = {0, 0.5, 1, 1.5, 2.5, 3, 4};
+static const double FADE_DISTANCES[] = {0.25, 0.5, 1, 2, 4, 8, 16};
 static const double SHININESS_FACTORS[] = {1 / 16., 1 / 8., 1 / 4., 1 / 2., 0.7, 0.85, 1.2, 1.4, 2, 4, 8, 16};
 static const double AMBIENTS[] = {0, 0.25, 0.5, 0.75, 1.5, 2, 3, 5};
 static const double LIGHT_FACTORS[] = {0, 0.1, 0.25, 0.5, 0.75, 1.25, 1.5, 2, 3, 5, 10};
@@ -37,21 +38,39 @@ static void tellShadows(const Trait *trait, double number, const Scene *scene, T
 static void applyFalloff(const Trait *trait, double number, Hypothesis *hypothesis)
 {
     hypothesis->light.falloff = (FalloffMistake)trait->choice;
-    hypothesis->light.exponent = number;
+    if (trait->choice == FALLOFF_POWER)
+        hypothesis->light.exponent = number;
+    else if (trait->grid != NULL)
+        hypothesis->light.fadeDistance = number;
 }
 
 static void tellFalloff(const Trait *trait, double number, const Scene *scene, Text *text)
 {
     (void)scene;
-    if (trait->choice == FALLOFF_POVRAY) {
-        textAppend(text, "the lights fall off by 2/(1 + d^2), as POV-Ray's fade_distance 1 does");
-    } else if (trait->choice == FALLOFF_ONE_MORE) {
-        textAppend(text, "the lights fall off by 1/(1 + d^2)");
-    } else if (fabs(number) < 0.01) {
-        textAppend(text, "falloff is missing: the lights are as strong at any distance");
-    } else {
+    switch ((FalloffMistake)trait->choice) {
+    case FALLOFF_POVRAY:
+        textAppend(text,
+                   "the lights fall off by 2/(1 + (d/D)^2), as POV-Ray's fade_distance D does, with a D of ");
+        appendRounded(text, number, 3);
+        break;
+    case FALLOFF_ONE_MORE:
+        textAppend(text, "the lights fall off by 1/(1 + (d/D)^2), with a D of ");
+        appendRounded(text, number, 3);
+        break;
+    case FALLOFF_LINEAR:
+        textAppend(text, "the lights fall off by 1/(1 + d)");
+        break;
+    case FALLOFF_ALL_TERMS:
+        textAppend(text, "the lights fall off by 1/(1 + d + d^2)");
+        break;
+    default:
+        if (fabs(number) < 0.01) {
+            textAppend(text, "falloff is missing: the lights are as strong at any distance");
+            break;
+        }
         textAppend(text, "the lights fall off by 1/d^");
         appendRounded(text, number, 3);
+        break;
     }
 }
 
@@ -341,8 +360,12 @@ static void addFalloffTraits(Traits *traits)
     power.grid = EXPONENTS;
     power.gridCount = (int)(sizeof EXPONENTS / sizeof *EXPONENTS);
     addChoice(traits, power, FALLOFF_POWER);
-    addChoice(traits, FALLOFF, FALLOFF_POVRAY);
-    addChoice(traits, FALLOFF, FALLOFF_ONE_MORE);
+    Trait fading = FALLOFF;
+    fading.grid = FADE_DISTANCES;
+    fading.gridCount = (int)(sizeof FADE_DISTANCES / sizeof *FADE_DISTANCES);
+    fading.isLogarithmic = true;
+    addChoices(traits, fading, FALLOFF_POVRAY, FALLOFF_ONE_MORE);
+    addChoices(traits, FALLOFF, FALLOFF_LINEAR, FALLOFF_ALL_TERMS);
 }
 
 static void addHighlightTraits(const Scene *scene, Traits *traits)

@@ -104,6 +104,13 @@ static void backgroundOf(const Image *image, const uint16_t **color)
     }
 }
 
+/* Say that the pixel is not known. */
+static void setUnknown(Prediction *prediction, size_t pixel)
+{
+    prediction->low[0][3 * pixel] = 1;
+    prediction->high[0][3 * pixel] = 0;
+}
+
 static void lookUpPixel(const Image *image, const uint16_t *background, const EvidencePixel *pixel,
                         const ViewChange *view, size_t i, Prediction *prediction)
 {
@@ -116,8 +123,7 @@ static void lookUpPixel(const Image *image, const uint16_t *background, const Ev
     if (fabs(y - round(y)) < 1e-6)
         y = round(y);
     if (!(x >= 0 && y >= 0 && x <= image->width - 1 && y <= image->height - 1)) {
-        prediction->low[0][3 * i] = 1;
-        prediction->high[0][3 * i] = 0;
+        setUnknown(prediction, i);
         return;
     }
     for (int c = 0; c < 3; c++) {
@@ -184,6 +190,17 @@ static ValuePlace findPlace(const Tracing *tracing, const SurfaceFinder *finder,
                         .diffuse = materialAt(hit.object, pointOnRay(&ray, hit.distance)).diffuse};
 }
 
+/* Whether a moved picture has nothing to show at the pixel but what its maker filled the border with. */
+static bool isBorder(const Tracing *tracing, const EvidencePixel *pixel)
+{
+    const ViewChange *view = tracing->view;
+    double x = pixel->x + 0.5, y = pixel->y + 0.5;
+    if (view->shiftX == 0 && view->shiftY == 0)
+        return false;
+    changePoint(view, tracing->evidence->width, tracing->evidence->height, &x, &y);
+    return x < 0.5 || y < 0.5 || x > tracing->evidence->width - 0.5 || y > tracing->evidence->height - 0.5;
+}
+
 static void traceChunk(void *context, size_t number)
 {
     const Tracing *tracing = context;
@@ -208,6 +225,8 @@ static void traceChunk(void *context, size_t number)
             }
         }
         prediction->places[i] = findPlace(tracing, &base.finder, pixel);
+        if (isBorder(tracing, pixel))
+            setUnknown(prediction, i);
     }
 }
 

@@ -30,6 +30,10 @@ static const double MARGIN = 0.97;
 /* Two mistakes must leave less than this share of what one leaves. */
 static const double PAIR_SHARE = 0.6;
 
+/* Pairs whose error, with the numbers of the grids, is so many times that of the worst one kept are given up:
+ * that much is not gained between two numbers of a grid. */
+static const double HOPELESS = 3;
+
 /* What is left must be less than this share of what there was, for the cause to be named. */
 static const double EXPLAINED_SHARE = 0.2;
 
@@ -143,13 +147,12 @@ static double fromScale(const Trait *trait, double scaled)
     return trait->isLogarithmic ? exp(scaled) : scaled;
 }
 
-/* Go through the grid of the trait's numbers, on every step-th pixel, and return the place of the best, whose
- * error is *least. */
+/* Go through the grid of the trait's numbers, on every step-th pixel, and return the place of the best.
+ * *least: the error up to which it counts; becomes its error, or INFINITY. */
 static int goThroughGrid(const NumberFit *fit, size_t step, double *least)
 {
     const Trait *trait = fit->candidate->traits[fit->which];
-    int best = 0;
-    *least = INFINITY;
+    int best = -1;
     for (int i = 0; i == 0 || i < trait->gridCount; i++) {
         double rmse = tryNumber(fit, trait->grid != NULL ? trait->grid[i] : 0, step, *least);
         if (rmse < *least) {
@@ -157,7 +160,9 @@ static int goThroughGrid(const NumberFit *fit, size_t step, double *least)
             best = i;
         }
     }
-    return best;
+    if (best < 0)
+        *least = INFINITY;
+    return best < 0 ? 0 : best;
 }
 
 /* Narrow the number down between from and to by the golden section, and leave the best in the candidate. */
@@ -216,7 +221,7 @@ static double narrowDownAt(const NumberFit *fit, int place, int steps)
 static double fitNumber(const NumberFit *fit)
 {
     const Trait *trait = fit->candidate->traits[fit->which];
-    double least;
+    double least = INFINITY;
     bool isCheap = fit->prediction != NULL && trait->grid != NULL && !trait->isWhole;
     int best = goThroughGrid(fit, isCheap ? ROUGH_STEP : 1, &least);
     if (trait->grid != NULL && !trait->isWhole)
@@ -319,8 +324,10 @@ static void keepPlace(RoughPlaces *places, RoughPlace found)
 }
 
 /* Fit a pair whose second changes only values: all numbers of both on few pixels, then the best of the first
- * on more of them, with the second's narrowed down. */
-static Candidate fitValueSecond(Search *search, const FirstTrait *first, const Trait *second, double before)
+ * on more of them, with the second's narrowed down. What is above limit on the few is given up; then the
+ * result has no traits. */
+static Candidate fitValueSecond(Search *search, const FirstTrait *first, const Trait *second, double before,
+                                double limit)
 {
     Candidate best = {.rmse = INFINITY};
     RoughPlaces places = {.count = 0};
@@ -330,10 +337,11 @@ static Candidate fitValueSecond(Search *search, const FirstTrait *first, const T
             int k = pass == 0 ? i : places.items[i].first;
             Candidate tried = {.traits = {first->trait, second}, .numbers = {first->numbers[k]}, .count = 2};
             NumberFit fit = {search, &tried, 1, &first->predictions[k], before};
-            double least;
             if (pass == 0) {
-                int place = goThroughGrid(&fit, isNarrowed ? ROUGH_STEP : 2, &least);
-                keepPlace(&places, (RoughPlace){k, place, least});
+                double least = places.count < NARROWED ? limit : places.items[NARROWED - 1].rmse;
+                int place = goThroughGrid(&fit, ROUGH_STEP, &least);
+                if (!isinf(least))
+                    keepPlace(&places, (RoughPlace){k, place, least});
                 continue;
             }
             int place = places.items[i].second;
@@ -412,6 +420,12 @@ static void keepPair(Candidate *kept, int *count, const Candidate *pair)
         at--;
     }
     kept[at] = *pair;
+}
+
+/* The error of the last pair that is kept. */
+static double worstKept(const Candidate *kept, int count)
+{
+    return count == KEPT_PAIRS ? kept[KEPT_PAIRS - 1].rmse : INFINITY;
 }
 
 /* ---- The whole search ---- */
@@ -566,7 +580,7 @@ static int findPairs(Search *rough, const double *singles, Candidate kept[KEPT_P
             if (b->part == TRAIT_VALUE) {
                 if (first.count == 0)
                     predictFirst(rough, a, &first);
-                pair = fitValueSecond(rough, &first, b, before);
+                pair = fitValueSecond(rough, &first, b, before, HOPELESS * worstKept(kept, count));
             } else {
                 pair = fitTracedSecond(rough, a, b, before);
             }
@@ -622,8 +636,9 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
                       .number = chosen->numbers[i],
                       .residual = i + 1 < chosen->count ? measureCandidate(full, &part, before) : left};
     }
-    /* A first cause that makes it worse only serves the second: together they fit by chance. */
-    if (findings->items[0].residual > before)
+    /* A first cause that makes it worse only serves the second: together they fit by chance, unless they
+     * leave nothing, as half a turn does, which is mirrored and flipped. */
+    if (findings->items[0].residual > before && !isRounding)
         return;
     findings->count = chosen->count;
 }
