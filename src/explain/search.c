@@ -37,6 +37,9 @@ static const double HOPELESS = 3;
 /* What is left must be less than this share of what there was, for the cause to be named. */
 static const double EXPLAINED_SHARE = 0.2;
 
+/* The same where the first of two causes makes it worse alone. */
+static const double OPPOSED_SHARE = 0.03;
+
 typedef struct Search {
     const Truth *truth;
     const Traits *traits;
@@ -636,9 +639,9 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
                       .number = chosen->numbers[i],
                       .residual = i + 1 < chosen->count ? measureCandidate(full, &part, before) : left};
     }
-    /* A first cause that makes it worse only serves the second: together they fit by chance, unless they
-     * leave nothing, as half a turn does, which is mirrored and flipped. */
-    if (findings->items[0].residual > before && !isRounding)
+    /* Where the first cause alone makes it worse, two may fit by chance; but two mistakes that act against
+     * each other, as acne and a gamma that brightens, or mirrored and flipped, leave next to nothing. */
+    if (findings->items[0].residual > before && left > OPPOSED_SHARE * before && !isRounding)
         return;
     findings->count = chosen->count;
 }
