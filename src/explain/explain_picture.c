@@ -296,9 +296,14 @@ static Status checkSizes(const Image *a, const char *aName, const Image *b, cons
 static Status searchFrom(const Image *wrong, const Image *right, const Look *look, Traits *traits,
                          Findings *findings)
 {
-    Truth truth = truthOfPicture(right);
+    Truth truth;
+    Status status = truthOfPicture(right, &truth);
+    if (!statusIsOk(&status))
+        return status;
     listPossibleTraits(NULL, wrong, right, look, traits);
-    return searchCauses(&truth, wrong, right, traits, findings);
+    status = searchCauses(&truth, wrong, right, traits, findings);
+    freeTruth(&truth);
+    return status;
 }
 
 /* The residual as a share of the difference; 1 where nothing was found. */

@@ -11,9 +11,26 @@ enum {
     CHUNK = 32 /* pixels a task: few, since each may take hundreds of rays */
 };
 
-Truth truthOfPicture(const Image *picture)
+/* What a sample at the top may stand for: what was clamped, up to a stop of light. More would let a picture
+ * with much of it be anything. */
+static const float BRIGHTEST = 1.25f;
+
+Status truthOfPicture(const Image *picture, Truth *truth)
 {
-    return (Truth){.picture = picture, .threads = 1};
+    size_t count = (size_t)imageMaxSample(picture) + 1;
+    LightRange *ranges = malloc(count * sizeof *ranges);
+    if (ranges == NULL)
+        return statusOutOfMemory();
+    float highest = (float)imageMaxSample(picture);
+    for (size_t i = 0; i < count; i++) {
+        float v = (float)i;
+        float ends[3] = {fmaxf(v - 0.5f, 0) / highest, v / highest, fminf(v + 0.5f, highest) / highest};
+        for (int k = 0; k < 3 && picture->encoding == ENCODING_SRGB; k++)
+            ends[k] = srgbToLinear(ends[k]);
+        ranges[i] = (LightRange){ends[0], ends[1], i + 1 < count ? ends[2] : BRIGHTEST};
+    }
+    *truth = (Truth){.picture = picture, .ranges = ranges, .threads = 1};
+    return statusOk();
 }
 
 Status truthOfScene(const SurfaceFinder *finder, int threads, Truth *truth)
@@ -33,34 +50,19 @@ Status truthOfScene(const SurfaceFinder *finder, int threads, Truth *truth)
 
 void freeTruth(Truth *truth)
 {
+    free(truth->ranges);
     free(truth->transparent);
+    truth->ranges = NULL;
     truth->transparent = NULL;
 }
 
 /* ---- From a picture ---- */
 
-/* What a sample at the top may stand for: what was clamped, up to a stop of light. More would let a picture
- * with much of it be anything. */
-static const float BRIGHTEST = 1.25f;
-
-/* The range of linear colours that a sample may stand for: half a step of its rounding to both sides, and at
- * the top what was clamped. */
-static void sampleRange(const Image *image, size_t sample, float *low, float *middle, float *high)
-{
-    float highest = (float)imageMaxSample(image), v = (float)image->samples[sample];
-    float ends[3] = {fmaxf(v - 0.5f, 0) / highest, v / highest, fminf(v + 0.5f, highest) / highest};
-    if (image->encoding == ENCODING_SRGB)
-        for (int i = 0; i < 3; i++)
-            ends[i] = srgbToLinear(ends[i]);
-    *low = ends[0];
-    *middle = ends[1];
-    *high = v >= highest ? BRIGHTEST : ends[2];
-}
-
 /* What lies at a point between four pixels: where they are alike, their mean; at an edge anything between. */
-static void lookUpBetween(const Image *image, double x, double y, int channel, float *low, float *middle,
+static void lookUpBetween(const Truth *truth, double x, double y, int channel, float *low, float *middle,
                           float *high)
 {
+    const Image *image = truth->picture;
     const float alike = 0.06f; /* of linear light: more is an edge */
     int left = (int)floor(x), top = (int)floor(y);
     float fx = (float)(x - left), fy = (float)(y - top);
@@ -71,11 +73,10 @@ static void lookUpBetween(const Image *image, double x, double y, int channel, f
             if (share == 0)
                 continue;
             size_t pixel = (size_t)(top + j) * (size_t)image->width + (size_t)(left + i);
-            float from, at, to;
-            sampleRange(image, 3 * pixel + (size_t)channel, &from, &at, &to);
-            least = fminf(least, from);
-            most = fmaxf(most, to);
-            sum += share * at;
+            LightRange range = truth->ranges[image->samples[3 * pixel + (size_t)channel]];
+            least = fminf(least, range.low);
+            most = fmaxf(most, range.high);
+            sum += share * range.middle;
         }
     }
     *middle = sum;
@@ -111,9 +112,10 @@ static void setUnknown(Prediction *prediction, size_t pixel)
     prediction->high[0][3 * pixel] = 0;
 }
 
-static void lookUpPixel(const Image *image, const uint16_t *background, const EvidencePixel *pixel,
+static void lookUpPixel(const Truth *truth, const uint16_t *background, const EvidencePixel *pixel,
                         const ViewChange *view, size_t i, Prediction *prediction)
 {
+    const Image *image = truth->picture;
     double x = pixel->x + 0.5, y = pixel->y + 0.5;
     changePoint(view, image->width, image->height, &x, &y);
     x -= 0.5;
@@ -128,7 +130,7 @@ static void lookUpPixel(const Image *image, const uint16_t *background, const Ev
     }
     for (int c = 0; c < 3; c++) {
         size_t at = 3 * i + (size_t)c;
-        lookUpBetween(image, x, y, c, &prediction->low[0][at], &prediction->middle[at],
+        lookUpBetween(truth, x, y, c, &prediction->low[0][at], &prediction->middle[at],
                       &prediction->high[0][at]);
     }
     const uint16_t *nearest =
@@ -289,6 +291,6 @@ Status predictPixels(const Truth *truth, const Evidence *evidence, PixelMemory *
     const uint16_t *background;
     backgroundOf(truth->picture, &background);
     for (size_t i = 0; i < evidence->count; i++)
-        lookUpPixel(truth->picture, background, &evidence->pixels[i], view, i, prediction);
+        lookUpPixel(truth, background, &evidence->pixels[i], view, i, prediction);
     return statusOk();
 }

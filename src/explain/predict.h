@@ -14,9 +14,15 @@
 
 #include <stdbool.h>
 
-/* What is right: a picture, or a scene; the other is NULL. Nothing is owned but transparent. */
+/* The linear light that a stored sample may stand for: half a step of its rounding to both sides. */
+typedef struct LightRange {
+    float low, middle, high;
+} LightRange;
+
+/* What is right: a picture, or a scene; the other is NULL. Of these only ranges and transparent are owned. */
 typedef struct Truth {
     const Image *picture;
+    LightRange *ranges; /* of each sample that the picture may have */
     const Scene *scene;
     const SurfaceFinder *finder; /* of the scene */
     uint32_t *transparent;       /* numbers of its transparent objects */
@@ -24,7 +30,8 @@ typedef struct Truth {
     int threads;
 } Truth;
 
-Truth truthOfPicture(const Image *picture);
+/* STATUS_IO when memory runs out. Freed with freeTruth. */
+Status truthOfPicture(const Image *picture, Truth *truth);
 
 /* The scene's finder must live as long. STATUS_IO when memory runs out. Freed with freeTruth. */
 Status truthOfScene(const SurfaceFinder *finder, int threads, Truth *truth);

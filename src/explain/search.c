@@ -537,6 +537,8 @@ static Candidate findBestSingle(Search *search, double *singles, double *numbers
     Candidate best = {.rmse = INFINITY};
     double before = plainBefore(search);
     for (size_t i = 0; i < search->traits->count && statusIsOk(&search->status); i++) {
+        if (best.rmse * MARGIN < 0.2 * floorError)
+            break; /* no other one can be so much better; then the rest is not asked for either */
         const Trait *trait = &search->traits->items[i];
         Candidate single = {.traits = {trait}, .count = 1};
         single.numbers[0] = trait->grid != NULL ? trait->grid[0] : 0;
