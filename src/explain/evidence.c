@@ -22,14 +22,16 @@ static bool isTaken(Stratum *stratum)
     return (i + 1) * stratum->wanted / stratum->members != i * stratum->wanted / stratum->members;
 }
 
-Status gatherEvidence(const Image *wrong, const bool *isDifferent, size_t mostPixels, Evidence *evidence)
+Status gatherEvidence(const Image *wrong, const bool *isDifferent, const bool *isIgnored, size_t mostPixels,
+                      Evidence *evidence)
 {
     if (cancelRequested())
         return statusInterrupted();
     size_t total = (size_t)wrong->width * (size_t)wrong->height;
     Stratum strata[2] = {{0}, {0}};
     for (size_t i = 0; i < total; i++)
-        strata[isDifferent[i]].members++;
+        if (isIgnored == NULL || !isIgnored[i])
+            strata[isDifferent[i]].members++;
 
     /* Half of each kind, and what one does not need to the other. */
     for (int k = 0; k < 2; k++) {
@@ -43,7 +45,7 @@ Status gatherEvidence(const Image *wrong, const bool *isDifferent, size_t mostPi
     size_t count = 0;
     for (size_t i = 0; i < total; i++) {
         Stratum *stratum = &strata[isDifferent[i]];
-        if (stratum->wanted == 0 || !isTaken(stratum))
+        if ((isIgnored != NULL && isIgnored[i]) || stratum->wanted == 0 || !isTaken(stratum))
             continue;
         EvidencePixel *pixel = &pixels[count++];
         pixel->x = (int)(i % (size_t)wrong->width);

@@ -27,9 +27,10 @@ typedef struct Evidence {
 } Evidence;
 
 /* Choose at most mostPixels pixels of the wrong picture. isDifferent: for each pixel, whether it differs from
- * the right one's by more than rounding. STATUS_IO when memory runs out, STATUS_INTERRUPTED when cancelled;
- * then evidence is untouched. Freed with freeEvidence. */
-Status gatherEvidence(const Image *wrong, const bool *isDifferent, size_t mostPixels, Evidence *evidence);
+ * the right one's by more than rounding; isIgnored: whether it is left out, or NULL. STATUS_IO when memory
+ * runs out, STATUS_INTERRUPTED when cancelled; then evidence is untouched. Freed with freeEvidence. */
+Status gatherEvidence(const Image *wrong, const bool *isDifferent, const bool *isIgnored, size_t mostPixels,
+                      Evidence *evidence);
 void freeEvidence(Evidence *evidence);
 
 enum {

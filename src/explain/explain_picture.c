@@ -293,16 +293,43 @@ static Status checkSizes(const Image *a, const char *aName, const Image *b, cons
 }
 
 /* Search with one of two pictures as the right one. */
-static Status searchFrom(const Image *wrong, const Image *right, const Look *look, Traits *traits,
-                         Findings *findings)
+static Status searchFrom(const Image *wrong, const Image *right, const bool *isIgnored, const Look *look,
+                         Traits *traits, Findings *findings)
 {
     Truth truth;
     Status status = truthOfPicture(right, &truth);
     if (!statusIsOk(&status))
         return status;
     listPossibleTraits(NULL, wrong, right, look, traits);
-    status = searchCauses(&truth, wrong, right, traits, findings);
+    status = searchCauses(&truth, wrong, right, isIgnored, traits, findings);
     freeTruth(&truth);
+    return status;
+}
+
+/* Specks and something else: what explains the picture but for its specks. Adds nothing where nothing does.
+ */
+static Status explainButForSpecks(const Image *mine, const Image *reference, const Look *look,
+                                  Explanations *causes)
+{
+    if (!hasSpecks(look))
+        return statusOk();
+    size_t count = (size_t)mine->width * (size_t)mine->height;
+    bool *isIgnored = calloc(count, sizeof *isIgnored);
+    Traits *traits = malloc(sizeof *traits);
+    Status status = isIgnored != NULL && traits != NULL ? statusOk() : statusOutOfMemory();
+    Findings findings = {.count = 0};
+    if (statusIsOk(&status)) {
+        for (int y = 1; y < mine->height - 1; y++)
+            for (int x = 1; x < mine->width - 1; x++)
+                isIgnored[(size_t)y * (size_t)mine->width + (size_t)x] = isSpeck(mine, x, y);
+        status = searchFrom(mine, reference, isIgnored, look, traits, &findings);
+    }
+    if (statusIsOk(&status) && findings.count > 0) {
+        tellFindings(&findings, NULL, NULL, NULL, causes);
+        tellAcne(findings.items[findings.count - 1].residual, causes);
+    }
+    free(isIgnored);
+    free(traits);
     return status;
 }
 
@@ -334,9 +361,9 @@ static Status explainDifference(const Image *mine, const Image *reference, const
     if (traits == NULL)
         return statusOutOfMemory();
     Findings from, back = {0};
-    Status status = searchFrom(mine, reference, look, &traits[0], &from);
+    Status status = searchFrom(mine, reference, NULL, look, &traits[0], &from);
     if (statusIsOk(&status) && shareLeft(&from) > 0.01)
-        status = searchFrom(reference, mine, look, &traits[1], &back);
+        status = searchFrom(reference, mine, NULL, look, &traits[1], &back);
 
     if (!statusIsOk(&status))
         ;
@@ -347,6 +374,8 @@ static Status explainDifference(const Image *mine, const Image *reference, const
     else if (back.count > 0)
         tellFindings(&back, NULL, NULL, referenceName, causes);
     else
+        status = explainButForSpecks(mine, reference, look, causes);
+    if (statusIsOk(&status) && causes->count == 0)
         status = explainLocally(mine, reference, look, causes);
     free(traits);
     return status;
@@ -409,17 +438,20 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
     }
     listPossibleTraits(scene, picture, right, look, traits);
     Findings findings;
-    status = searchCauses(&truth, picture, right, traits, &findings);
+    status = searchCauses(&truth, picture, right, NULL, traits, &findings);
     /* A picture that was drawn right and changed afterwards has edges and borders that no tracing gives. */
     if (statusIsOk(&status) && findings.count == 0)
-        status = searchFrom(picture, right, look, traits, &findings);
+        status = searchFrom(picture, right, NULL, look, traits, &findings);
     if (statusIsOk(&status)) {
         if (findings.count > 0)
             tellFindings(&findings, scene, source, NULL, causes);
         else if (isSpeckled(look))
             tellAcne(look->rmseButDarker, causes);
         else
-            tellUnknown(look, true, causes);
+            status = explainButForSpecks(picture, right, look, causes);
+    }
+    if (statusIsOk(&status) && causes->count == 0) {
+        tellUnknown(look, true, causes);
     }
     freeTruth(&truth);
     free(traits);

@@ -37,6 +37,10 @@ static const double HOPELESS = 3;
 /* What is left must be less than this share of what there was, for the cause to be named. */
 static const double EXPLAINED_SHARE = 0.2;
 
+/* The same for acne and something else: any lamp may be blocked anywhere, which explains a part of anything.
+ */
+static const double EXPLAINED_BY_ACNE = 0.05;
+
 /* The same where the first of two causes makes it worse alone. */
 static const double OPPOSED_SHARE = 0.03;
 
@@ -117,6 +121,15 @@ typedef struct NumberFit {
     double before;
 } NumberFit;
 
+/* Whether a picture that is stretched is so by less than a pixel at its border. Then what lies between the
+ * pixels explains any other edges, as those of more samples. */
+static bool isHardlyStretched(const ViewChange *view, const Evidence *evidence)
+{
+    if (view->scaleX == 1 && view->scaleY == 1)
+        return false;
+    return fabs(view->scaleX - 1) * evidence->width < 2 && fabs(view->scaleY - 1) * evidence->height < 2;
+}
+
 /* The error with this number; above limit it may be INFINITY. */
 static double tryNumber(const NumberFit *fit, double number, size_t step, double limit)
 {
@@ -126,7 +139,7 @@ static double tryNumber(const NumberFit *fit, double number, size_t step, double
     const Prediction *prediction = fit->prediction;
     if (cancelRequested())
         fit->search->status = statusInterrupted();
-    if (!statusIsOk(&fit->search->status))
+    if (!statusIsOk(&fit->search->status) || isHardlyStretched(&hypothesis.view, fit->search->evidence))
         return INFINITY;
     if (prediction == NULL) {
         if (!predictFor(fit->search, &hypothesis, false, &made))
@@ -504,8 +517,9 @@ static bool isPairTried(const Search *search, const double *singles, size_t i, s
     bool aView = a->part == TRAIT_VIEW && singles[i] > viewLimit;
     bool bView = b->part == TRAIT_VIEW && singles[j] > viewLimit;
     bool isTurned = a->cause == CAUSE_MIRRORED || a->cause == CAUSE_FLIPPED;
+    /* Mirrored and flipped, or one of them shifted or stretched; and of these two, where one is likely. */
     if (a->part == TRAIT_VIEW && b->part == TRAIT_VIEW)
-        return isTurned; /* mirrored and flipped, or one of them shifted or stretched */
+        return isTurned || !aView || !bView;
     bool isTraced = a->part >= TRAIT_LIGHT || b->part >= TRAIT_LIGHT;
     return !aView && !bView && (!isTraced || fmin(singles[i], singles[j]) <= limit);
 }
@@ -631,7 +645,8 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
         return;
     double left = measureCandidate(full, chosen, before);
     bool isRounding = left <= 2 * floorError && before >= 6 * floorError;
-    if (left >= EXPLAINED_SHARE * before && !isRounding)
+    double share = chosen->count > 1 && hypothesisOf(chosen).acne ? EXPLAINED_BY_ACNE : EXPLAINED_SHARE;
+    if (left >= share * before && !isRounding)
         return;
     for (int i = 0; i < chosen->count; i++) {
         Candidate part = *chosen;
@@ -648,8 +663,8 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
     findings->count = chosen->count;
 }
 
-Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const Traits *traits,
-                    Findings *findings)
+Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const bool *isIgnored,
+                    const Traits *traits, Findings *findings)
 {
     *findings = (Findings){0};
     /* Fewer pixels where each has many rays. */
@@ -661,7 +676,7 @@ Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, 
     bool *isDifferent = findDifferentPixels(wrong, right);
     Status status = isDifferent != NULL ? statusOk() : statusOutOfMemory();
     for (int i = 0; i < 3 && statusIsOk(&status); i++) {
-        status = gatherEvidence(wrong, isDifferent, most[i], &evidence[i]);
+        status = gatherEvidence(wrong, isDifferent, isIgnored, most[i], &evidence[i]);
         if (statusIsOk(&status))
             status = beginSearch(&searches[i], truth, traits, &evidence[i], truth->scene != NULL && i < 2);
         searches[i].isPlain = isOneColor(wrong);

@@ -471,7 +471,7 @@ static size_t countEvidence(int whitePixels, size_t most, size_t *white)
     Evidence evidence;
     bool *isDifferent = findDifferentPixels(&wrong, &right);
     assert_non_null(isDifferent);
-    Status status = gatherEvidence(&wrong, isDifferent, most, &evidence);
+    Status status = gatherEvidence(&wrong, isDifferent, NULL, most, &evidence);
     assert_true(statusIsOk(&status));
     free(isDifferent);
     double sum = 0, whiteSum = 0;
@@ -787,7 +787,7 @@ static Findings searchScene(const Scene *scene, const Image *wrong, const Image 
     listTraits(scene, (StoredFormat){8, ENCODING_SRGB}, traits);
     assert_true(traits->count < MAX_TRAITS);
     Findings findings;
-    status = searchCauses(&truth, wrong, right, traits, &findings);
+    status = searchCauses(&truth, wrong, right, NULL, traits, &findings);
     assert_true(statusIsOk(&status));
     freeTruth(&truth);
     freeCompiledScene(compiled);
