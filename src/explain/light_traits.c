@@ -6,7 +6,7 @@
 /* ---- Numbers to try ---- */
 
 static const double EXPONENTS[] = {0, 0.5, 1, 1.5, 2.5, 3, 4};
-static const double FADE_DISTANCES[] = {0.25, 0.5, 1, 2, 4, 8, 16};
+static const double FADE_DISTANCES[] = {1, 2, 4, 8, 16};
 static const double SHININESS_FACTORS[] = {1 / 16., 1 / 8., 1 / 4., 1 / 2., 0.7, 0.85, 1.2, 1.4, 2, 4, 8, 16};
 static const double AMBIENTS[] = {0, 0.25, 0.5, 0.75, 1.5, 2, 3, 5};
 static const double LIGHT_FACTORS[] = {0, 0.1, 0.25, 0.5, 0.75, 1.25, 1.5, 2, 3, 5, 10};
@@ -419,13 +419,14 @@ static void addLightScales(const Scene *scene, Traits *traits)
 void addLightTraits(const Scene *scene, Traits *traits)
 {
     addShadowTraits(scene, traits);
+    addLightScales(scene,
+                   traits); /* before the falloff, of which some are much the same far from the lamps */
     addFalloffTraits(traits);
     if (hasHighlights(scene->objects, scene->objectCount))
         addHighlightTraits(scene, traits);
     addFacingTraits(traits);
     if (!colorIsBlack(scene->render.ambient))
         addTrait(traits, AMBIENT_SCALE);
-    addLightScales(scene, traits);
     if (scene->lightCount > 0)
         addTrait(traits, ACNE);
 }

@@ -27,6 +27,10 @@ enum {
 /* How much better a later hypothesis must be to take the place of an earlier, simpler one. */
 static const double MARGIN = 0.97;
 
+/* By how much it must be better besides, as a share of what rounding may leave: a right hypothesis leaves
+ * hardly a sample in a thousand off by a step. */
+static const double SLACK = 0.05;
+
 /* Two mistakes must leave less than this share of what one leaves. */
 static const double PAIR_SHARE = 0.6;
 
@@ -551,7 +555,7 @@ static Candidate findBestSingle(Search *search, double *singles, double *numbers
     Candidate best = {.rmse = INFINITY};
     double before = plainBefore(search);
     for (size_t i = 0; i < search->traits->count && statusIsOk(&search->status); i++) {
-        if (best.rmse * MARGIN < 0.2 * floorError)
+        if (best.rmse * MARGIN < SLACK * floorError)
             break; /* no other one can be so much better; then the rest is not asked for either */
         const Trait *trait = &search->traits->items[i];
         Candidate single = {.traits = {trait}, .count = 1};
@@ -559,7 +563,7 @@ static Candidate findBestSingle(Search *search, double *singles, double *numbers
         bool isLeftOut = (search->isPlain && trait->part != TRAIT_LIGHT) || changesNothing(search, &single);
         singles[i] = isLeftOut ? INFINITY : fitSingle(search, &single, before);
         numbers[i] = single.numbers[0];
-        if (!isinf(singles[i]) && single.rmse < best.rmse * MARGIN - 0.2 * floorError * (best.count > 0))
+        if (!isinf(singles[i]) && single.rmse < best.rmse * MARGIN - SLACK * floorError * (best.count > 0))
             best = single;
     }
     return best;
@@ -627,7 +631,7 @@ static Candidate chooseCandidate(Search *fine, Search *rough, double *singles, d
     }
     for (int i = 0; i < count && i < FITTED_PAIRS && statusIsOk(&fine->status); i++) {
         fitPairFinely(fine, &kept[i], before, floorError);
-        if (kept[i].rmse < best.rmse * MARGIN - 0.2 * floorError * (best.count > 0))
+        if (kept[i].rmse < best.rmse * MARGIN - SLACK * floorError * (best.count > 0))
             best = kept[i];
     }
     if (best.count == 0 || best.rmse > PAIR_SHARE * single.rmse)
