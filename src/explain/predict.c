@@ -148,21 +148,23 @@ typedef struct Tracing {
     const ViewChange *view;
     const LightChange *changes; /* one for each alternative */
     PixelMemory *memories;      /* one for each pixel, or NULL */
+    bool isBlurred;             /* the second alternative lies between pixels of the picture as drawn */
     CameraFrame frame;
     Media media; /* round a perspective camera */
     Prediction *prediction;
 } Tracing;
 
 /* The mean colour of a pixel's rays. */
-static Color3f tracePixel(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel)
+static Color3f tracePixel(const Tracing *tracing, const SurfaceFinder *finder, const ViewChange *view,
+                          int column, int row)
 {
     const Truth *truth = tracing->truth;
     const Evidence *evidence = tracing->evidence;
     int n = truth->scene->render.samples;
     double sum[3] = {0, 0, 0};
     for (int k = 0; k < n * n; k++) {
-        double x = pixel->x + (k % n + 0.5) / n, y = pixel->y + (k / n + 0.5) / n;
-        changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
+        double x = column + (k % n + 0.5) / n, y = row + (k / n + 0.5) / n;
+        changePoint(view, evidence->width, evidence->height, &x, &y);
         Ray ray = cameraRay(&tracing->frame, x, y, evidence->width, evidence->height);
         Media media = tracing->media;
         if (tracing->frame.projection != PROJECTION_PERSPECTIVE)
@@ -177,6 +179,46 @@ static Color3f tracePixel(const Tracing *tracing, const SurfaceFinder *finder, c
     }
     double count = (double)n * n;
     return createColor((float)(sum[0] / count), (float)(sum[1] / count), (float)(sum[2] / count));
+}
+
+/* Whether the view moves the picture by half a pixel. */
+static bool isHalfShift(const ViewChange *view)
+{
+    return fabs(view->shiftX) == 0.5 || fabs(view->shiftY) == 0.5;
+}
+
+static float encodeAs(const Evidence *evidence, float light)
+{
+    float v = fminf(fmaxf(light, 0), 1);
+    return evidence->format.encoding == ENCODING_SRGB ? linearToSrgb(v) : v;
+}
+
+/* A pixel of a picture that was drawn and then moved: the mean of the two or four pixels round the point, of
+ * their light (high) or of their samples (low, which is never more). */
+static void traceBetween(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel,
+                         float low[3], float high[3])
+{
+    const Evidence *evidence = tracing->evidence;
+    ViewChange neutral = neutralViewChange();
+    double x = pixel->x + 0.5, y = pixel->y + 0.5, light[3] = {0, 0, 0}, stored[3] = {0, 0, 0};
+    changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
+    int left = (int)floor(x - 0.5), top = (int)floor(y - 0.5);
+    int right = (int)ceil(x - 0.5), bottom = (int)ceil(y - 0.5), count = 0;
+    for (int row = top; row <= bottom; row++) {
+        for (int column = left; column <= right; column++, count++) {
+            Color3f color = tracePixel(tracing, finder, &neutral, column, row);
+            const float channels[3] = {color.r, color.g, color.b};
+            for (int c = 0; c < 3; c++) {
+                light[c] += (double)fminf(channels[c], 1);
+                stored[c] += (double)encodeAs(evidence, channels[c]);
+            }
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        float mean = (float)(stored[c] / count);
+        high[c] = (float)(light[c] / count);
+        low[c] = evidence->format.encoding == ENCODING_SRGB ? fminf(srgbToLinear(mean), high[c]) : high[c];
+    }
 }
 
 static ValuePlace findPlace(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel)
@@ -218,7 +260,12 @@ static void traceChunk(void *context, size_t number)
         const EvidencePixel *pixel = &tracing->evidence->pixels[i];
         for (int a = 0; a < prediction->alternatives; a++) {
             beginPixel(&cursor, tracing->memories != NULL ? &tracing->memories[i] : NULL);
-            Color3f color = tracePixel(tracing, &finders[a].finder, pixel);
+            if (a == 1 && tracing->isBlurred) {
+                traceBetween(tracing, &finders[a].finder, pixel, prediction->low[a] + 3 * i,
+                             prediction->high[a] + 3 * i);
+                continue;
+            }
+            Color3f color = tracePixel(tracing, &finders[a].finder, tracing->view, pixel->x, pixel->y);
             const float channels[3] = {color.r, color.g, color.b};
             for (size_t c = 0; c < 3; c++) {
                 prediction->low[a][3 * i + c] = prediction->high[a][3 * i + c] = channels[c];
@@ -253,7 +300,8 @@ static Status predictFromScene(const Truth *truth, const Evidence *evidence, Pix
                                Prediction *prediction)
 {
     unsigned ways[MAX_ALTERNATIVES] = {0};
-    int count = acne ? blockedWays(truth->scene->lightCount, ways) : 1;
+    bool isBlurred = !acne && isHalfShift(view);
+    int count = acne ? blockedWays(truth->scene->lightCount, ways) : isBlurred ? 2 : 1;
     Status status = createPrediction(evidence->count, count, prediction);
     if (!statusIsOk(&status))
         return status;
@@ -269,6 +317,7 @@ static Status predictFromScene(const Truth *truth, const Evidence *evidence, Pix
         .view = view,
         .changes = changes,
         .memories = memories,
+        .isBlurred = isBlurred,
         .frame = cameraFrame(&scene->camera, evidence->width, evidence->height),
         .media = mediaAmong(scene, truth->transparent, truth->transparentCount, scene->camera.position),
         .prediction = prediction};
