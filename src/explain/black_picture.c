@@ -1,6 +1,11 @@
 /* black_picture.c - see black_picture.h. */
 #include "explain/black_picture.h"
 
+#include "explain/sample_rounding.h"
+
+#include <math.h>
+#include <stdlib.h>
+
 enum {
     TRIED_PIXELS = 400,
     REASONS = 2
@@ -22,10 +27,10 @@ static Status isMadeBlack(const Truth *truth, const Evidence *evidence, const Li
     ViewChange view = neutralViewChange();
     ValueChange value = neutralValueChange();
     Prediction prediction;
-    Status status = predictPixels(truth, evidence, &view, change, false, &prediction);
+    Status status = predictPixels(truth, evidence, NULL, &view, change, false, &prediction);
     if (!statusIsOk(&status))
         return status;
-    *isBlack = measureMisfit(evidence, &prediction, &value, 1).rmse == 0;
+    *isBlack = measureMisfit(evidence, &prediction, &value, 1, INFINITY).rmse == 0;
     freePrediction(&prediction);
     return status;
 }
@@ -36,7 +41,11 @@ Status appendBlackReasons(const Truth *truth, const Image *black, const Image *r
     changes[0].lightScale = 0;
     changes[1].normals = NORMALS_FLIPPED;
     Evidence evidence;
-    Status status = gatherEvidence(black, right, TRIED_PIXELS, &evidence);
+    bool *isDifferent = findDifferentPixels(black, right);
+    if (isDifferent == NULL)
+        return statusOutOfMemory();
+    Status status = gatherEvidence(black, isDifferent, NULL, TRIED_PIXELS, &evidence);
+    free(isDifferent);
     if (!statusIsOk(&status))
         return status;
     bool isBlack[REASONS] = {false, false};

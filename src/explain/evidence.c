@@ -2,39 +2,13 @@
 #include "explain/evidence.h"
 
 #include "base/cancel.h"
+#include "explain/sample_rounding.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- Which pixels ---- */
-
-static void readSamples(const Image *image, size_t pixel, float samples[3])
-{
-    for (int c = 0; c < 3; c++)
-        samples[c] = (float)image->samples[3 * pixel + (size_t)c] / (float)imageMaxSample(image);
-}
-
-/* Whether the two differ by more than the coarser one's rounding. */
-static bool differsAt(const Image *a, const Image *b, size_t pixel)
-{
-    float x[3], y[3];
-    readSamples(a, pixel, x);
-    readSamples(b, pixel, y);
-    bool eightBits = a->bitDepth == 8 || b->bitDepth == 8;
-    float step = eightBits ? 1.5f / 255 : 1.5f / 65535;
-    for (int c = 0; c < 3; c++) {
-        float u = a->encoding == b->encoding     ? x[c]
-                  : a->encoding == ENCODING_SRGB ? srgbToLinear(x[c])
-                                                 : x[c];
-        float v = a->encoding == b->encoding     ? y[c]
-                  : b->encoding == ENCODING_SRGB ? srgbToLinear(y[c])
-                                                 : y[c];
-        if (fabsf(u - v) > step)
-            return true;
-    }
-    return false;
-}
 
 /* Add wanted of the members of a kind of pixels, evenly spread: member number i when (i * wanted) / members
  * steps on. */
@@ -48,14 +22,16 @@ static bool isTaken(Stratum *stratum)
     return (i + 1) * stratum->wanted / stratum->members != i * stratum->wanted / stratum->members;
 }
 
-Status gatherEvidence(const Image *wrong, const Image *right, size_t mostPixels, Evidence *evidence)
+Status gatherEvidence(const Image *wrong, const bool *isDifferent, const bool *isIgnored, size_t mostPixels,
+                      Evidence *evidence)
 {
     if (cancelRequested())
         return statusInterrupted();
     size_t total = (size_t)wrong->width * (size_t)wrong->height;
     Stratum strata[2] = {{0}, {0}};
     for (size_t i = 0; i < total; i++)
-        strata[differsAt(wrong, right, i)].members++;
+        if (isIgnored == NULL || !isIgnored[i])
+            strata[isDifferent[i]].members++;
 
     /* Half of each kind, and what one does not need to the other. */
     for (int k = 0; k < 2; k++) {
@@ -68,14 +44,15 @@ Status gatherEvidence(const Image *wrong, const Image *right, size_t mostPixels,
         return statusOutOfMemory();
     size_t count = 0;
     for (size_t i = 0; i < total; i++) {
-        Stratum *stratum = &strata[differsAt(wrong, right, i)];
-        if (stratum->wanted == 0 || !isTaken(stratum))
+        Stratum *stratum = &strata[isDifferent[i]];
+        if ((isIgnored != NULL && isIgnored[i]) || stratum->wanted == 0 || !isTaken(stratum))
             continue;
         EvidencePixel *pixel = &pixels[count++];
         pixel->x = (int)(i % (size_t)wrong->width);
         pixel->y = (int)(i / (size_t)wrong->width);
         pixel->weight = (float)stratum->members / (float)stratum->wanted;
-        readSamples(wrong, i, pixel->samples);
+        for (size_t c = 0; c < 3; c++)
+            pixel->samples[c] = sampleAsStored(wrong, 3 * i + c);
     }
     *evidence = (Evidence){.format = {wrong->bitDepth, wrong->encoding},
                            .width = wrong->width,
@@ -131,13 +108,15 @@ static float squaredDistance(const float sample[3], const float low[3], const fl
 }
 
 Misfit measureMisfit(const Evidence *evidence, const Prediction *prediction, const ValueChange *change,
-                     size_t step)
+                     size_t step, double limit)
 {
     double sum = 0, plain = 0, known = 0, total = 0;
-    for (size_t i = 0; i < evidence->count; i += step) {
+    for (size_t i = 0; i < evidence->count; i += step)
+        total += (double)evidence->pixels[i].weight;
+    double mostSum = 3 * total * limit * limit * (1 + 1e-9);
+    for (size_t i = 0; i < evidence->count && sum <= mostSum; i += step) {
         const EvidencePixel *pixel = &evidence->pixels[i];
         const ValuePlace *place = &prediction->places[i];
-        total += (double)pixel->weight;
         if (prediction->low[0][3 * i] > prediction->high[0][3 * i])
             continue;
         float nearest = INFINITY, low[3], high[3];
@@ -161,7 +140,7 @@ Misfit measureMisfit(const Evidence *evidence, const Prediction *prediction, con
         plain += (double)(pixel->weight * guess);
         known += (double)pixel->weight;
     }
-    if (!(known > 0))
+    if (!(known > 0) || sum > mostSum)
         return (Misfit){INFINITY, INFINITY, 0};
     return (Misfit){sqrt(sum / (3 * known)), sqrt(plain / (3 * known)), known / total};
 }

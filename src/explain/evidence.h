@@ -26,9 +26,11 @@ typedef struct Evidence {
     size_t count;
 } Evidence;
 
-/* Choose at most mostPixels pixels of the wrong picture. Both have the same width and height. STATUS_IO when
- * memory runs out, STATUS_INTERRUPTED when cancelled; then evidence is untouched. Freed with freeEvidence. */
-Status gatherEvidence(const Image *wrong, const Image *right, size_t mostPixels, Evidence *evidence);
+/* Choose at most mostPixels pixels of the wrong picture. isDifferent: for each pixel, whether it differs from
+ * the right one's by more than rounding; isIgnored: whether it is left out, or NULL. STATUS_IO when memory
+ * runs out, STATUS_INTERRUPTED when cancelled; then evidence is untouched. Freed with freeEvidence. */
+Status gatherEvidence(const Image *wrong, const bool *isDifferent, const bool *isIgnored, size_t mostPixels,
+                      Evidence *evidence);
 void freeEvidence(Evidence *evidence);
 
 enum {
@@ -55,8 +57,9 @@ typedef struct Misfit {
     double known; /* the share of the picture that was predicted */
 } Misfit;
 
-/* Look at every step-th pixel only. */
+/* Look at every step-th pixel only. Where rmse would be above limit, all of them may be INFINITY: most
+ * hypotheses are only asked whether they are better than another one, and few pixels tell. */
 Misfit measureMisfit(const Evidence *evidence, const Prediction *prediction, const ValueChange *change,
-                     size_t step);
+                     size_t step, double limit);
 
 #endif

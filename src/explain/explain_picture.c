@@ -6,6 +6,7 @@
 #include "explain/black_picture.h"
 #include "explain/local_difference.h"
 #include "explain/part_words.h"
+#include "explain/sample_rounding.h"
 #include "explain/scene_lines.h"
 #include "explain/search.h"
 
@@ -49,49 +50,20 @@ typedef struct Look {
     int left, top, right, bottom; /* of those that differ */
 } Look;
 
-static float sampleAt(const Image *image, int x, int y, int c)
-{
-    return (float)image->samples[3 * ((size_t)y * (size_t)image->width + (size_t)x) + (size_t)c] /
-           (float)imageMaxSample(image);
-}
-
-static float linearAt(const Image *image, int x, int y, int c)
-{
-    float v = sampleAt(image, x, y, c);
-    return image->encoding == ENCODING_SRGB ? srgbToLinear(v) : v;
-}
-
 /* A sample of other as it would be stored in the format of image. */
-static float storedLike(const Image *image, const Image *other, int x, int y, int c)
+static float storedLike(const Image *image, const Image *other, size_t sample)
 {
     if (image->encoding == other->encoding)
-        return sampleAt(other, x, y, c);
-    return image->encoding == ENCODING_SRGB ? linearToSrgb(linearAt(other, x, y, c))
-                                            : linearAt(other, x, y, c);
-}
-
-/* The linear light that a sample may stand for, with a step and a half of its rounding in all. */
-static void lightRange(const Image *image, int x, int y, int c, float *low, float *high)
-{
-    float v = sampleAt(image, x, y, c), reach = 0.75f / (float)imageMaxSample(image);
-    float from = fmaxf(v - reach, 0), to = fminf(v + reach, 1);
-    bool isCurved = image->encoding == ENCODING_SRGB;
-    *low = isCurved ? srgbToLinear(from) : from;
-    *high = isCurved ? srgbToLinear(to) : to;
-}
-
-/* Whether two samples of different encodings differ by more than rounding. */
-static bool areApart(const Image *a, const Image *b, int x, int y, int c)
-{
-    float aLow, aHigh, bLow, bHigh;
-    lightRange(a, x, y, c, &aLow, &aHigh);
-    lightRange(b, x, y, c, &bLow, &bHigh);
-    return aHigh < bLow || bHigh < aLow;
+        return sampleAsStored(other, sample);
+    float light = sampleAsLight(other, sample);
+    return image->encoding == ENCODING_SRGB ? linearToSrgb(light) : light;
 }
 
 static float brightness(const Image *image, int x, int y)
 {
-    return sampleAt(image, x, y, 0) + sampleAt(image, x, y, 1) + sampleAt(image, x, y, 2);
+    size_t sample = 3 * ((size_t)y * (size_t)image->width + (size_t)x);
+    return sampleAsStored(image, sample) + sampleAsStored(image, sample + 1) +
+           sampleAsStored(image, sample + 2);
 }
 
 /* Whether the pixel is a hole in what surrounds it. */
@@ -116,19 +88,17 @@ static Look lookAt(const Image *mine, const Image *other)
     double sum = 0, darkerSum = 0, brighterSum = 0;
     for (int y = 0; y < mine->height && !cancelRequested(); y++) {
         for (int x = 0; x < mine->width; x++) {
-            float most = 0, signedSum = 0;
+            size_t pixel = (size_t)y * (size_t)mine->width + (size_t)x;
+            float signedSum = 0;
             double pixelSum = 0;
-            bool isApart = false;
-            for (int c = 0; c < 3; c++) {
-                float d = sampleAt(mine, x, y, c) - storedLike(mine, other, x, y, c);
+            for (size_t i = 3 * pixel; i < 3 * pixel + 3; i++) {
+                float d = sampleAsStored(mine, i) - storedLike(mine, other, i);
                 pixelSum += (double)(d * d);
-                most = fmaxf(most, fabsf(d));
-                isApart = isApart || (mine->encoding != other->encoding && areApart(mine, other, x, y, c));
                 signedSum += d;
                 look.below += d < -0.5f * step;
                 look.above += d > 0.5f * step;
             }
-            if (mine->encoding == other->encoding ? most > 1.5f * step : isApart) {
+            if (pixelsDiffer(mine, other, pixel)) {
                 look.differing++;
                 look.darker += signedSum < 0;
                 look.brighter += signedSum > 0;
@@ -344,12 +314,44 @@ static Status checkSizes(const Image *a, const char *aName, const Image *b, cons
 }
 
 /* Search with one of two pictures as the right one. */
-static Status searchFrom(const Image *wrong, const Image *right, const Look *look, Traits *traits,
-                         Findings *findings)
+static Status searchFrom(const Image *wrong, const Image *right, const bool *isIgnored, const Look *look,
+                         Traits *traits, Findings *findings)
 {
-    Truth truth = truthOfPicture(right);
+    Truth truth;
+    Status status = truthOfPicture(right, &truth);
+    if (!statusIsOk(&status))
+        return status;
     listPossibleTraits(NULL, wrong, right, look, traits);
-    return searchCauses(&truth, wrong, right, traits, findings);
+    status = searchCauses(&truth, wrong, right, isIgnored, traits, findings);
+    freeTruth(&truth);
+    return status;
+}
+
+/* Specks and something else: what explains the picture but for its specks. Adds nothing where nothing does.
+ */
+static Status explainButForSpecks(const Image *mine, const Image *reference, const Look *look,
+                                  Explanations *causes)
+{
+    if (!hasSpecks(look))
+        return statusOk();
+    size_t count = (size_t)mine->width * (size_t)mine->height;
+    bool *isIgnored = calloc(count, sizeof *isIgnored);
+    Traits *traits = malloc(sizeof *traits);
+    Status status = isIgnored != NULL && traits != NULL ? statusOk() : statusOutOfMemory();
+    Findings findings = {.count = 0};
+    if (statusIsOk(&status)) {
+        for (int y = 1; y < mine->height - 1; y++)
+            for (int x = 1; x < mine->width - 1; x++)
+                isIgnored[(size_t)y * (size_t)mine->width + (size_t)x] = isSpeck(mine, x, y);
+        status = searchFrom(mine, reference, isIgnored, look, traits, &findings);
+    }
+    if (statusIsOk(&status) && findings.count > 0) {
+        tellFindings(&findings, NULL, NULL, NULL, causes);
+        tellAcne(findings.items[findings.count - 1].residual, causes);
+    }
+    free(isIgnored);
+    free(traits);
+    return status;
 }
 
 /* The residual as a share of the difference; 1 where nothing was found. */
@@ -380,9 +382,9 @@ static Status explainDifference(const Image *mine, const Image *reference, const
     if (traits == NULL)
         return statusOutOfMemory();
     Findings from, back = {0};
-    Status status = searchFrom(mine, reference, look, &traits[0], &from);
+    Status status = searchFrom(mine, reference, NULL, look, &traits[0], &from);
     if (statusIsOk(&status) && shareLeft(&from) > 0.01)
-        status = searchFrom(reference, mine, look, &traits[1], &back);
+        status = searchFrom(reference, mine, NULL, look, &traits[1], &back);
 
     if (!statusIsOk(&status))
         ;
@@ -393,6 +395,8 @@ static Status explainDifference(const Image *mine, const Image *reference, const
     else if (back.count > 0)
         tellFindings(&back, NULL, NULL, referenceName, causes);
     else
+        status = explainButForSpecks(mine, reference, look, causes);
+    if (statusIsOk(&status) && causes->count == 0)
         status = explainLocally(mine, reference, look, causes);
     free(traits);
     return status;
@@ -474,15 +478,20 @@ static Status explainFromScene(const Image *picture, const Image *right, const C
     }
     listPossibleTraits(scene, picture, right, look, traits);
     Findings findings;
-    status = searchCauses(&truth, picture, right, traits, &findings);
+    status = searchCauses(&truth, picture, right, NULL, traits, &findings);
+    /* A picture that was drawn right and changed afterwards has edges and borders that no tracing gives. */
+    if (statusIsOk(&status) && findings.count == 0)
+        status = searchFrom(picture, right, NULL, look, traits, &findings);
     if (statusIsOk(&status)) {
         if (shareLeft(&findings) <= WELL_EXPLAINED)
             tellFindings(&findings, scene, source, NULL, causes);
         else if (findings.count == 0 && isSpeckled(look))
             tellAcne(look->rmseButDarker, causes);
         else
-            status = explainPart(picture, right, &truth, source, look, &findings, causes);
+            status = findings.count > 0 ? statusOk() : explainButForSpecks(picture, right, look, causes);
     }
+    if (statusIsOk(&status) && causes->count == 0)
+        status = explainPart(picture, right, &truth, source, look, &findings, causes);
     if (statusIsOk(&status) && causes->count > 0 && isBlackPicture(picture))
         status = appendBlackReasons(&truth, picture, right, &causes->items[0].text);
     freeTruth(&truth);

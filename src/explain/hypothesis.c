@@ -13,6 +13,18 @@ void addTrait(Traits *traits, Trait trait)
         traits->items[traits->count++] = trait;
 }
 
+void addChoice(Traits *traits, Trait trait, int choice)
+{
+    trait.choice = choice;
+    addTrait(traits, trait);
+}
+
+void addChoices(Traits *traits, Trait trait, int first, int last)
+{
+    for (int choice = first; choice <= last; choice++)
+        addChoice(traits, trait, choice);
+}
+
 void listTraits(const Scene *scene, StoredFormat file, Traits *traits)
 {
     traits->count = 0;

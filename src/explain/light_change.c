@@ -36,6 +36,24 @@ static bool asksForShadows(const ChangedFinder *changed)
            (changed->change.shadows != SHADOWS_NONE && changed->base->scene->render.shadows);
 }
 
+/* The share of the light that arrives at the distance d. */
+static double changedFalloff(const LightChange *change, double d)
+{
+    double faded = d / change->fadeDistance;
+    switch (change->falloff) {
+    case FALLOFF_POWER:
+        return change->exponent == 0 ? 1 : pow(d, -change->exponent);
+    case FALLOFF_POVRAY:
+        return 2 / (1 + faded * faded);
+    case FALLOFF_ONE_MORE:
+        return 1 / (1 + faded * faded);
+    case FALLOFF_LINEAR:
+        return 1 / (1 + d);
+    default:
+        return 1 / (1 + d + d * d);
+    }
+}
+
 /* The light that arrives, growing weaker as the change says. full gets what it would be without any falloff.
  */
 static ArrivingLight changedArriving(const LightChange *change, const Light *light, int sample,
@@ -45,16 +63,10 @@ static ArrivingLight changedArriving(const LightChange *change, const Light *lig
     even.falloff = FALLOFF_NONE;
     ArrivingLight arriving = lightArriving(&even, sample, point);
     *full = arriving.color;
-    double d = arriving.distance;
-    if (change->falloff == FALLOFF_AS_SCENE || light->kind == LIGHT_DIRECTIONAL) {
-        if (light->falloff != FALLOFF_NONE)
-            return lightArriving(light, sample, point);
-    } else if (change->falloff == FALLOFF_POWER) {
-        arriving.color = scaleColor(arriving.color, change->exponent == 0 ? 1 : pow(d, -change->exponent));
-    } else {
-        arriving.color =
-            scaleColor(arriving.color, (change->falloff == FALLOFF_POVRAY ? 2 : 1) / (1 + d * d));
-    }
+    if (change->falloff != FALLOFF_AS_SCENE && light->kind != LIGHT_DIRECTIONAL)
+        arriving.color = scaleColor(arriving.color, changedFalloff(change, arriving.distance));
+    else if (light->falloff != FALLOFF_NONE)
+        return lightArriving(light, sample, point);
     return arriving;
 }
 

@@ -20,9 +20,11 @@ typedef enum ShadowMistake {
 
 typedef enum FalloffMistake {
     FALLOFF_AS_SCENE,
-    FALLOFF_POWER,   /* 1/d^exponent; 0: no falloff */
-    FALLOFF_POVRAY,  /* 2/(1 + d^2) */
-    FALLOFF_ONE_MORE /* 1/(1 + d^2) */
+    FALLOFF_POWER,    /* 1/d^exponent; 0: no falloff */
+    FALLOFF_POVRAY,   /* 2/(1 + (d/fadeDistance)^2) */
+    FALLOFF_ONE_MORE, /* 1/(1 + (d/fadeDistance)^2) */
+    FALLOFF_LINEAR,   /* 1/(1 + d) */
+    FALLOFF_ALL_TERMS /* 1/(1 + d + d^2) */
 } FalloffMistake;
 
 typedef enum HighlightMistake {
@@ -58,7 +60,7 @@ typedef struct LightChange {
     ShadowMistake shadows;
     int shadowlessLight; /* the number of the light that throws no shadow, from 1; 0: none */
     FalloffMistake falloff;
-    double exponent;
+    double exponent, fadeDistance;
     HighlightMistake highlight;
     ShininessMistake shininess;
     double shininessValue; /* a factor, or the exponent */
@@ -82,7 +84,7 @@ bool sameMaterial(const Material *a, const Material *b);
 /* The change that changes nothing. */
 static inline LightChange neutralLightChange(void)
 {
-    return (LightChange){.ambientScale = 1, .lightScale = 1};
+    return (LightChange){.fadeDistance = 1, .ambientScale = 1, .lightScale = 1};
 }
 
 /* A finder that traces with the change; begins with its SurfaceFinder. */

@@ -6,6 +6,7 @@
 /* ---- Numbers to try ---- */
 
 static const double EXPONENTS[] = {0, 0.5, 1, 1.5, 2.5, 3, 4};
+static const double FADE_DISTANCES[] = {1, 2, 4, 8, 16};
 static const double SHININESS_FACTORS[] = {1 / 16., 1 / 8., 1 / 4., 1 / 2., 0.7, 0.85, 1.2, 1.4, 2, 4, 8, 16};
 static const double AMBIENTS[] = {0, 0.25, 0.5, 0.75, 1.5, 2, 3, 5};
 static const double LIGHT_FACTORS[] = {0, 0.1, 0.25, 0.5, 0.75, 1.25, 1.5, 2, 3, 5, 10};
@@ -37,21 +38,39 @@ static void tellShadows(const Trait *trait, double number, const Scene *scene, T
 static void applyFalloff(const Trait *trait, double number, Hypothesis *hypothesis)
 {
     hypothesis->light.falloff = (FalloffMistake)trait->choice;
-    hypothesis->light.exponent = number;
+    if (trait->choice == FALLOFF_POWER)
+        hypothesis->light.exponent = number;
+    else if (trait->grid != NULL)
+        hypothesis->light.fadeDistance = number;
 }
 
 static void tellFalloff(const Trait *trait, double number, const Scene *scene, Text *text)
 {
     (void)scene;
-    if (trait->choice == FALLOFF_POVRAY) {
-        textAppend(text, "the lights fall off by 2/(1 + d^2), as POV-Ray's fade_distance 1 does");
-    } else if (trait->choice == FALLOFF_ONE_MORE) {
-        textAppend(text, "the lights fall off by 1/(1 + d^2)");
-    } else if (fabs(number) < 0.01) {
-        textAppend(text, "falloff is missing: the lights are as strong at any distance");
-    } else {
+    switch ((FalloffMistake)trait->choice) {
+    case FALLOFF_POVRAY:
+        textAppend(text,
+                   "the lights fall off by 2/(1 + (d/D)^2), as POV-Ray's fade_distance D does, with a D of ");
+        textAppendRounded(text, number, 3);
+        break;
+    case FALLOFF_ONE_MORE:
+        textAppend(text, "the lights fall off by 1/(1 + (d/D)^2), with a D of ");
+        textAppendRounded(text, number, 3);
+        break;
+    case FALLOFF_LINEAR:
+        textAppend(text, "the lights fall off by 1/(1 + d)");
+        break;
+    case FALLOFF_ALL_TERMS:
+        textAppend(text, "the lights fall off by 1/(1 + d + d^2)");
+        break;
+    default:
+        if (fabs(number) < 0.01) {
+            textAppend(text, "falloff is missing: the lights are as strong at any distance");
+            break;
+        }
         textAppend(text, "the lights fall off by 1/d^");
         textAppendRounded(text, number, 3);
+        break;
     }
 }
 
@@ -205,7 +224,7 @@ static void tellAcne(const Trait *trait, double number, const Scene *scene, Text
                "surface, a rounding error below it");
 }
 
-/* ---- The list ---- */
+/* ---- What the scene has ---- */
 
 static bool hasHighlights(const Object *objects, size_t count)
 {
@@ -240,130 +259,174 @@ static size_t listShininesses(const Object *objects, size_t objectCount, float *
     return count;
 }
 
-static void addLightTrait(Traits *traits, Cause cause, void (*apply)(const Trait *, double, Hypothesis *),
-                          void (*tell)(const Trait *, double, const Scene *, Text *), int choice, int other,
-                          const char *formula, const char *key)
+/* ---- The list, without the choices ---- */
+
+static const char PHONG_FORMULA[] = "Ispec * Lc * max(0, dot(R, V))^shininess / d^2";
+static const char NORMAL_FORMULA[] = "N is of unit length and points to the side the ray comes from";
+
+static const Trait SHADOWS = {.cause = CAUSE_SHADOW,
+                              .part = TRAIT_LIGHT,
+                              .apply = applyShadows,
+                              .tell = tellShadows,
+                              .formula = "a light counts if nothing lies strictly between the point and it",
+                              .key = "shadows"};
+static const Trait FALLOFF = {.cause = CAUSE_FALLOFF,
+                              .part = TRAIT_LIGHT,
+                              .apply = applyFalloff,
+                              .tell = tellFalloff,
+                              .formula = "Ic * Lc * dot(N, L) / d^2",
+                              .key = "falloff"};
+static const Trait HIGHLIGHT = {.cause = CAUSE_SPECULAR,
+                                .part = TRAIT_LIGHT,
+                                .apply = applyHighlight,
+                                .tell = tellHighlight,
+                                .formula = PHONG_FORMULA,
+                                .key = "specular"};
+static const Trait OTHER_MODEL = {.cause = CAUSE_BLINN,
+                                  .part = TRAIT_LIGHT,
+                                  .apply = applyHighlight,
+                                  .choice = HIGHLIGHT_OTHER_MODEL,
+                                  .tell = tellHighlight,
+                                  .formula = PHONG_FORMULA,
+                                  .key = "model"};
+static const Trait SHININESS = {.cause = CAUSE_SHININESS,
+                                .part = TRAIT_LIGHT,
+                                .apply = applyShininess,
+                                GRID(SHININESSES),
+                                .isLogarithmic = true,
+                                .tell = tellShininess,
+                                .formula = PHONG_FORMULA,
+                                .key = "shininess"};
+static const Trait NORMALS = {.cause = CAUSE_NORMALS,
+                              .part = TRAIT_LIGHT,
+                              .apply = applyNormals,
+                              .tell = tellNormals,
+                              .formula = NORMAL_FORMULA};
+static const Trait FLAT_NORMALS = {.cause = CAUSE_NORMALS,
+                                   .part = TRAIT_LIGHT,
+                                   .apply = applyNormals,
+                                   .choice = NORMALS_FLAT,
+                                   .tell = tellNormals,
+                                   .formula = "N is interpolated between the corners of a triangle",
+                                   .key = "smooth"};
+static const Trait NEGATIVE = {.cause = CAUSE_NEGATIVE_LIGHT,
+                               .part = TRAIT_LIGHT,
+                               .apply = applyNegative,
+                               .tell = tellNegative,
+                               .formula = "Ic * Lc * max(0, dot(N, L)) / d^2"};
+static const Trait AMBIENT_SCALE = {.cause = CAUSE_AMBIENT,
+                                    .part = TRAIT_LIGHT,
+                                    .apply = applyAmbientScale,
+                                    GRID(AMBIENTS),
+                                    .tell = tellAmbientScale,
+                                    .formula = "color = ambient * render.ambient + emission + ...",
+                                    .key = "ambient"};
+static const Trait LIGHT_SCALE = {.cause = CAUSE_EXPOSURE,
+                                  .part = TRAIT_LIGHT,
+                                  .apply = applyLightScale,
+                                  GRID(LIGHT_FACTORS),
+                                  .tell = tellLightScale,
+                                  .formula = "Ic * Lc * dot(N, L) / d^2",
+                                  .key = "color"};
+static const Trait ACNE = {.cause = CAUSE_ACNE,
+                           .part = TRAIT_ACNE,
+                           .apply = applyAcne,
+                           .tell = tellAcne,
+                           .formula = "the shadow ray starts a little off the surface: offsetStart in "
+                                      "src/raytracer.c",
+                           .key = "shadow_bias"};
+
+/* ---- The list ---- */
+
+static void addShadowTraits(const Scene *scene, Traits *traits)
 {
-    addTrait(traits, (Trait){.cause = cause,
-                             .part = TRAIT_LIGHT,
-                             .apply = apply,
-                             .tell = tell,
-                             .choice = choice,
-                             .other = other,
-                             .formula = formula,
-                             .key = key});
+    if (!scene->render.shadows) {
+        addChoice(traits, SHADOWS, SHADOWS_UNASKED);
+        return;
+    }
+    addChoice(traits, SHADOWS, SHADOWS_NONE);
+    addChoice(traits, SHADOWS, SHADOWS_TOO_LONG);
+    Trait ofOne = SHADOWS;
+    ofOne.key = "lights";
+    for (size_t i = 0; i < scene->lightCount && i < 8 && scene->lightCount > 1; i++) {
+        ofOne.other = (int)i + 1;
+        addChoice(traits, ofOne, SHADOWS_AS_SCENE);
+    }
+}
+
+static void addFalloffTraits(Traits *traits)
+{
+    Trait power = FALLOFF;
+    power.grid = EXPONENTS;
+    power.gridCount = (int)(sizeof EXPONENTS / sizeof *EXPONENTS);
+    addChoice(traits, power, FALLOFF_POWER);
+    Trait fading = FALLOFF;
+    fading.grid = FADE_DISTANCES;
+    fading.gridCount = (int)(sizeof FADE_DISTANCES / sizeof *FADE_DISTANCES);
+    fading.isLogarithmic = true;
+    addChoices(traits, fading, FALLOFF_POVRAY, FALLOFF_ONE_MORE);
+    addChoices(traits, FALLOFF, FALLOFF_LINEAR, FALLOFF_ALL_TERMS);
 }
 
 static void addHighlightTraits(const Scene *scene, Traits *traits)
 {
-    static const char PHONG[] = "Ispec * Lc * max(0, dot(R, V))^shininess / d^2";
-    addLightTrait(traits, CAUSE_SPECULAR, applyHighlight, tellHighlight, HIGHLIGHT_NONE, 0, PHONG,
-                  "specular");
-    addLightTrait(traits, CAUSE_BLINN, applyHighlight, tellHighlight, HIGHLIGHT_OTHER_MODEL, 0, PHONG,
-                  "model");
-    addLightTrait(traits, CAUSE_SPECULAR, applyHighlight, tellHighlight, HIGHLIGHT_NO_FALLOFF, 0, PHONG,
-                  "specular");
-    addLightTrait(traits, CAUSE_SPECULAR, applyHighlight, tellHighlight, HIGHLIGHT_DIFFUSE, 0, PHONG,
-                  "specular");
-    Trait shininess = {.cause = CAUSE_SHININESS,
-                       .part = TRAIT_LIGHT,
-                       .apply = applyShininess,
-                       .isLogarithmic = true,
-                       .tell = tellShininess,
-                       .formula = PHONG,
-                       .key = "shininess"};
+    addChoice(traits, HIGHLIGHT, HIGHLIGHT_NONE);
+    addTrait(traits, OTHER_MODEL);
+    addChoice(traits, HIGHLIGHT, HIGHLIGHT_NO_FALLOFF);
+    addChoice(traits, HIGHLIGHT, HIGHLIGHT_DIFFUSE);
     float groups[6];
     size_t count = listShininesses(scene->objects, scene->objectCount, groups, 0, 6);
     for (size_t i = 0; i < count; i++) {
-        Trait one = shininess;
-        one.grid = SHININESSES;
-        one.gridCount = (int)(sizeof SHININESSES / sizeof *SHININESSES);
-        one.choice = count > 1 ? SHININESS_OF_ONE : SHININESS_IS;
-        one.group = groups[i];
-        addTrait(traits, one);
+        Trait ofGroup = SHININESS;
+        ofGroup.group = groups[i];
+        addChoice(traits, ofGroup, count > 1 ? SHININESS_OF_ONE : SHININESS_IS);
     }
     if (count > 1) {
-        Trait all = shininess;
-        all.grid = SHININESS_FACTORS;
-        all.gridCount = (int)(sizeof SHININESS_FACTORS / sizeof *SHININESS_FACTORS);
-        all.choice = SHININESS_TIMES;
-        addTrait(traits, all);
-        all.grid = SHININESSES;
-        all.gridCount = (int)(sizeof SHININESSES / sizeof *SHININESSES);
-        all.choice = SHININESS_IS;
-        addTrait(traits, all);
+        Trait times = SHININESS;
+        times.grid = SHININESS_FACTORS;
+        times.gridCount = (int)(sizeof SHININESS_FACTORS / sizeof *SHININESS_FACTORS);
+        addChoice(traits, times, SHININESS_TIMES);
+        addChoice(traits, SHININESS, SHININESS_IS);
     }
+}
+
+/* What lies behind a surface, with and without shadows there. */
+static void addFacingTraits(Traits *traits)
+{
+    for (int back = 0; back < 2; back++) {
+        Trait normals = NORMALS, negative = NEGATIVE;
+        normals.other = negative.other = back;
+        addChoice(traits, normals, NORMALS_FLIPPED);
+        addChoices(traits, negative, NEGATIVE_SUBTRACTS, NEGATIVE_HIGHLIGHT);
+    }
+    Trait normals = NORMALS;
+    normals.other = 1;
+    addChoice(traits, normals, NORMALS_NOT_TURNED);
+    addTrait(traits, FLAT_NORMALS);
 }
 
 /* All lamps brighter or darker; of several also each alone. */
 static void addLightScales(const Scene *scene, Traits *traits)
 {
     size_t each = scene->lightCount > 1 && scene->lightCount <= 8 ? scene->lightCount : 0;
-    for (size_t i = 0; i <= each && scene->lightCount > 0; i++)
-        addTrait(traits, (Trait){.cause = CAUSE_EXPOSURE,
-                                 .part = TRAIT_LIGHT,
-                                 .apply = applyLightScale,
-                                 GRID(LIGHT_FACTORS),
-                                 .other = (int)i,
-                                 .tell = tellLightScale,
-                                 .formula = "Ic * Lc * dot(N, L) / d^2",
-                                 .key = "color"});
+    for (size_t i = 0; i <= each && scene->lightCount > 0; i++) {
+        Trait scale = LIGHT_SCALE;
+        scale.other = (int)i;
+        addTrait(traits, scale);
+    }
 }
 
 void addLightTraits(const Scene *scene, Traits *traits)
 {
-    static const char SHADOW[] = "a light counts if nothing lies strictly between the point and it";
-    static const char FALLOFF[] = "Ic * Lc * dot(N, L) / d^2";
-    static const char FACING[] = "Ic * Lc * max(0, dot(N, L)) / d^2";
-    if (scene->render.shadows) {
-        addLightTrait(traits, CAUSE_SHADOW, applyShadows, tellShadows, SHADOWS_NONE, 0, SHADOW, "shadows");
-        addLightTrait(traits, CAUSE_SHADOW, applyShadows, tellShadows, SHADOWS_TOO_LONG, 0, SHADOW,
-                      "shadows");
-        for (size_t i = 0; i < scene->lightCount && i < 8 && scene->lightCount > 1; i++)
-            addLightTrait(traits, CAUSE_SHADOW, applyShadows, tellShadows, SHADOWS_AS_SCENE, (int)i + 1,
-                          SHADOW, "lights");
-    } else {
-        addLightTrait(traits, CAUSE_SHADOW, applyShadows, tellShadows, SHADOWS_UNASKED, 0, SHADOW, "shadows");
-    }
-    Trait falloff = {.cause = CAUSE_FALLOFF,
-                     .part = TRAIT_LIGHT,
-                     .apply = applyFalloff,
-                     GRID(EXPONENTS),
-                     .choice = FALLOFF_POWER,
-                     .tell = tellFalloff,
-                     .formula = FALLOFF,
-                     .key = "falloff"};
-    addTrait(traits, falloff);
-    addLightTrait(traits, CAUSE_FALLOFF, applyFalloff, tellFalloff, FALLOFF_POVRAY, 0, FALLOFF, "falloff");
-    addLightTrait(traits, CAUSE_FALLOFF, applyFalloff, tellFalloff, FALLOFF_ONE_MORE, 0, FALLOFF, "falloff");
+    addShadowTraits(scene, traits);
+    addLightScales(scene,
+                   traits); /* before the falloff, of which some are much the same far from the lamps */
+    addFalloffTraits(traits);
     if (hasHighlights(scene->objects, scene->objectCount))
         addHighlightTraits(scene, traits);
-    for (int back = 0; back < 2; back++) {
-        addLightTrait(traits, CAUSE_NORMALS, applyNormals, tellNormals, NORMALS_FLIPPED, back,
-                      "N is of unit length and points to the side the ray comes from", NULL);
-        for (int mistake = NEGATIVE_SUBTRACTS; mistake <= NEGATIVE_HIGHLIGHT; mistake++)
-            addLightTrait(traits, CAUSE_NEGATIVE_LIGHT, applyNegative, tellNegative, mistake, back, FACING,
-                          NULL);
-    }
-    addLightTrait(traits, CAUSE_NORMALS, applyNormals, tellNormals, NORMALS_NOT_TURNED, 1,
-                  "N is of unit length and points to the side the ray comes from", NULL);
-    addLightTrait(traits, CAUSE_NORMALS, applyNormals, tellNormals, NORMALS_FLAT, 0,
-                  "N is interpolated between the corners of a triangle", "smooth");
+    addFacingTraits(traits);
     if (!colorIsBlack(scene->render.ambient))
-        addTrait(traits, (Trait){.cause = CAUSE_AMBIENT,
-                                 .part = TRAIT_LIGHT,
-                                 .apply = applyAmbientScale,
-                                 GRID(AMBIENTS),
-                                 .tell = tellAmbientScale,
-                                 .formula = "color = ambient * render.ambient + emission + ...",
-                                 .key = "ambient"});
-    addLightScales(scene, traits);
+        addTrait(traits, AMBIENT_SCALE);
     if (scene->lightCount > 0)
-        addTrait(traits, (Trait){.cause = CAUSE_ACNE,
-                                 .part = TRAIT_ACNE,
-                                 .apply = applyAcne,
-                                 .tell = tellAcne,
-                                 .formula = "the shadow ray starts a little off the surface: offsetStart in "
-                                            "src/raytracer.c",
-                                 .key = "shadow_bias"});
+        addTrait(traits, ACNE);
 }

@@ -1,11 +1,13 @@
 /* local_difference.c - see local_difference.h. */
 #include "explain/local_difference.h"
 
+#include "explain/sample_rounding.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 /* Of the picture, the part may be no more than this share, and no fewer than some pixels. */
-static const double LARGEST_PART = 0.35;
+static const double LARGEST_PART = 0.6;
 enum {
     FEWEST_PIXELS = 25
 };
@@ -21,18 +23,12 @@ typedef struct Pair {
     unsigned char *isPart;
 } Pair;
 
-static float sampleAsLinear(const Image *image, size_t sample)
-{
-    float v = (float)image->samples[sample] / (float)imageMaxSample(image);
-    return image->encoding == ENCODING_SRGB ? srgbToLinear(v) : v;
-}
-
 static void readLinear(const Image *image, Color3f *pixels)
 {
     size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t i = 0; i < count; i++)
-        pixels[i] = createColor(sampleAsLinear(image, 3 * i), sampleAsLinear(image, 3 * i + 1),
-                                sampleAsLinear(image, 3 * i + 2));
+        pixels[i] = createColor(sampleAsLight(image, 3 * i), sampleAsLight(image, 3 * i + 1),
+                                sampleAsLight(image, 3 * i + 2));
 }
 
 static float sumOf(Color3f c)
@@ -147,6 +143,34 @@ static bool peaksWithHighlight(const Pair *pair, float largest)
     return differenceAt(pair, brightest) > 0.6f * largest;
 }
 
+/* How much two neighbours differ, whatever the light on both. */
+static double contrastBetween(const Color3f *pixels, size_t a, size_t b)
+{
+    const double dark = 0.02; /* below that, nothing is seen */
+    return fabs(log((dark + (double)sumOf(pixels[a])) / (dark + (double)sumOf(pixels[b]))));
+}
+
+/* Which of the pictures has edges that the other one has not, in the part and at its border: from -1, all in
+ * the brighter one, as with a highlight, to 1, all in the darker one, as with a shadow. The edges of the
+ * objects and of their patterns are in both. */
+static double contrastOfDark(const Pair *pair)
+{
+    double inBright = 0, inDark = 0;
+    for (int y = 0; y + 1 < pair->height; y++) {
+        for (int x = 0; x + 1 < pair->width; x++) {
+            size_t here = (size_t)y * (size_t)pair->width + (size_t)x;
+            size_t neighbours[2] = {here + 1, here + (size_t)pair->width};
+            for (int k = 0; k < 2; k++) {
+                if (pair->isPart[here] == 0 && pair->isPart[neighbours[k]] == 0)
+                    continue;
+                inBright += contrastBetween(pair->bright, here, neighbours[k]);
+                inDark += contrastBetween(pair->dark, here, neighbours[k]);
+            }
+        }
+    }
+    return inBright + inDark > 0 ? (inDark - inBright) / (inDark + inBright) : 0;
+}
+
 static Cause causeOfPart(const Pair *pair)
 {
     size_t count = (size_t)pair->width * (size_t)pair->height;
@@ -155,13 +179,17 @@ static Cause causeOfPart(const Pair *pair)
         largest = pair->isPart[i] != 0 ? fmaxf(largest, differenceAt(pair, i)) : largest;
     float edge = EDGE_SHARE * largest;
     Border border = lookAtBorder(pair, edge);
-    if (border.sharp * 3 > border.pixels && border.onlyInDark * 10 > border.sharp * 4)
+    double contrast = contrastOfDark(pair);
+    /* What is another object has an outline. So a soft border is that of a soft shadow or a highlight, and a
+     * sharp one that of a shadow where the brighter picture shows nothing. */
+    bool isSharp = border.sharp * 3 > border.pixels;
+    if (contrast > 0.07 && (!isSharp || border.onlyInDark * 10 > border.sharp * 4))
         return CAUSE_SHADOW;
     /* Highlights of several lamps have several hues; then the border must be without any edge. */
     size_t edgesAllowed = hasOneHue(pair, edge) ? border.pixels / 6 : border.pixels / 20;
-    if (border.sharp > edgesAllowed)
+    if (border.sharp > edgesAllowed || contrast > 0)
         return CAUSE_UNKNOWN;
-    return peaksWithHighlight(pair, largest) ? CAUSE_SPECULAR : CAUSE_SHININESS;
+    return contrast < -0.17 || peaksWithHighlight(pair, largest) ? CAUSE_SPECULAR : CAUSE_SHININESS;
 }
 
 Status findLocalDifference(const Image *mine, const Image *other, LocalDifference *found)

@@ -134,7 +134,7 @@ static Status predictVariant(const Truth *truth, const Evidence *evidence, const
     Truth changed;
     status = truthOfScene(compiledFinder(compiled), truth->threads, &changed);
     if (statusIsOk(&status)) {
-        status = predictPixels(&changed, evidence, &view, &light, false, prediction);
+        status = predictPixels(&changed, evidence, NULL, &view, &light, false, prediction);
         freeTruth(&changed);
     }
     freeCompiledScene(compiled);
@@ -202,7 +202,7 @@ static Status predictRelit(const Truth *truth, const Evidence *evidence, const P
     changed.finder = &finder.finder;
     ViewChange view = neutralViewChange();
     LightChange light = neutralLightChange();
-    status = predictPixels(&changed, evidence, &view, &light, false, prediction);
+    status = predictPixels(&changed, evidence, NULL, &view, &light, false, prediction);
     freeSceneVariant(&variant);
     return status;
 }
@@ -218,5 +218,5 @@ Status predictPart(const Truth *truth, const Evidence *evidence, const PartChang
     LightChange light = change->light;
     light.onlyMaterial = change->ofMaterial;
     light.onlyObject = change->wholeMaterial ? NULL : &truth->scene->objects[change->number];
-    return predictPixels(truth, evidence, &view, &light, false, prediction);
+    return predictPixels(truth, evidence, NULL, &view, &light, false, prediction);
 }

@@ -62,7 +62,7 @@ static double measureColors(const PartSearch *search, const Palette *palette, co
         }
     }
     ValueChange neutral = neutralValueChange();
-    double left = measureMisfit(search->evidence, &sum, &neutral, 1).rmse;
+    double left = measureMisfit(search->evidence, &sum, &neutral, 1, INFINITY).rmse;
     freePrediction(&sum);
     return left;
 }

@@ -2,8 +2,10 @@
 #include "explain/part_search.h"
 
 #include "base/cancel.h"
+#include "explain/sample_rounding.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum {
     TRIED_PIXELS = 500,   /* that changes are tried on */
@@ -33,7 +35,7 @@ double measurePart(PartSearch *search, const PartChange *change)
     if (!statusIsOk(&search->status))
         return INFINITY;
     ValueChange neutral = neutralValueChange();
-    double left = measureMisfit(search->evidence, &prediction, &neutral, 1).rmse;
+    double left = measureMisfit(search->evidence, &prediction, &neutral, 1, INFINITY).rmse;
     freePrediction(&prediction);
     return left;
 }
@@ -306,11 +308,11 @@ static Status measureFully(const PartSearch *tried, const Evidence *full, PartFi
     ViewChange view = neutralViewChange();
     LightChange light = neutralLightChange();
     Prediction right;
-    Status status = predictPixels(search.truth, full, &view, &light, false, &right);
+    Status status = predictPixels(search.truth, full, NULL, &view, &light, false, &right);
     if (!statusIsOk(&status))
         return status;
     ValueChange neutral = neutralValueChange();
-    double before = measureMisfit(full, &right, &neutral, 1).rmse;
+    double before = measureMisfit(full, &right, &neutral, 1, INFINITY).rmse;
     freePrediction(&right);
     finding->change = tried->best;
     finding->residual = measurePart(&search, &tried->best);
@@ -320,47 +322,40 @@ static Status measureFully(const PartSearch *tried, const Evidence *full, PartFi
     return search.status;
 }
 
-/* How many times as many rays as the simplest scenes' the pixels have, roughly. */
-static size_t costOf(const Truth *truth)
-{
-    const Scene *scene = truth->scene;
-    size_t samples = (size_t)scene->render.samples, lamps = 0;
-    for (size_t i = 0; i < scene->lightCount; i++)
-        lamps += (size_t)lightSampleCount(&scene->lights[i]);
-    size_t ofLights = scene->lightCount > 0 ? lamps / scene->lightCount : 1;
-    return samples * samples * ofLights * (truth->transparentCount > 0 ? 4 : 1);
-}
-
 Status findPart(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding)
 {
-    size_t cost = costOf(truth);
+    size_t cost = predictionCost(truth);
     Evidence evidence = {.count = 0}, many = {.count = 0}, full = {.count = 0};
     PartSearch search = {.truth = truth, .evidence = &evidence, .manyPixels = &many, .status = statusOk()};
-    search.rounding = wrong->bitDepth == 8 ? 0.4 / 255 : 0.6 / 65535;
+    search.rounding = roundingError(wrong->bitDepth);
     ViewChange view = neutralViewChange();
     LightChange light = neutralLightChange();
     PartFinding found = {0};
-    Status status = gatherEvidence(wrong, right, TRIED_PIXELS / cost + 300, &evidence);
+    bool *isDifferent = findDifferentPixels(wrong, right);
+    Status status = isDifferent != NULL ? statusOk() : statusOutOfMemory();
     if (statusIsOk(&status))
-        status = gatherEvidence(wrong, right, MANY_PIXELS / cost + 300, &many);
+        status = gatherEvidence(wrong, isDifferent, NULL, TRIED_PIXELS / cost + 300, &evidence);
     if (statusIsOk(&status))
-        status = predictPixels(truth, &evidence, &view, &light, false, &search.right);
+        status = gatherEvidence(wrong, isDifferent, NULL, MANY_PIXELS / cost + 300, &many);
+    if (statusIsOk(&status))
+        status = predictPixels(truth, &evidence, NULL, &view, &light, false, &search.right);
     if (statusIsOk(&status))
         status = findDifferenceOwners(truth, &evidence, &search.right, &found.owners);
     if (statusIsOk(&status)) {
         ValueChange neutral = neutralValueChange();
-        search.before = search.left = measureMisfit(&evidence, &search.right, &neutral, 1).rmse;
+        search.before = search.left = measureMisfit(&evidence, &search.right, &neutral, 1, INFINITY).rmse;
         tryParts(&search, &found.owners);
         status = search.status;
     }
     if (statusIsOk(&status) && search.isFound)
-        status = gatherEvidence(wrong, right, FULL_PIXELS / cost + 2000, &full);
+        status = gatherEvidence(wrong, isDifferent, NULL, FULL_PIXELS / cost + 2000, &full);
     if (statusIsOk(&status) && search.isFound)
         status = measureFully(&search, &full, &found);
     freePrediction(&search.right);
     freeEvidence(&evidence);
     freeEvidence(&many);
     freeEvidence(&full);
+    free(isDifferent);
     if (statusIsOk(&status))
         *finding = found;
     else

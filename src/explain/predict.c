@@ -11,9 +11,26 @@ enum {
     CHUNK = 32 /* pixels a task: few, since each may take hundreds of rays */
 };
 
-Truth truthOfPicture(const Image *picture)
+/* What a sample at the top may stand for: what was clamped, up to a stop of light. More would let a picture
+ * with much of it be anything. */
+static const float BRIGHTEST = 1.25f;
+
+Status truthOfPicture(const Image *picture, Truth *truth)
 {
-    return (Truth){.picture = picture, .threads = 1};
+    size_t count = (size_t)imageMaxSample(picture) + 1;
+    LightRange *ranges = malloc(count * sizeof *ranges);
+    if (ranges == NULL)
+        return statusOutOfMemory();
+    float highest = (float)imageMaxSample(picture);
+    for (size_t i = 0; i < count; i++) {
+        float v = (float)i;
+        float ends[3] = {fmaxf(v - 0.5f, 0) / highest, v / highest, fminf(v + 0.5f, highest) / highest};
+        for (int k = 0; k < 3 && picture->encoding == ENCODING_SRGB; k++)
+            ends[k] = srgbToLinear(ends[k]);
+        ranges[i] = (LightRange){ends[0], ends[1], i + 1 < count ? ends[2] : BRIGHTEST};
+    }
+    *truth = (Truth){.picture = picture, .ranges = ranges, .threads = 1};
+    return statusOk();
 }
 
 Status truthOfScene(const SurfaceFinder *finder, int threads, Truth *truth)
@@ -33,34 +50,19 @@ Status truthOfScene(const SurfaceFinder *finder, int threads, Truth *truth)
 
 void freeTruth(Truth *truth)
 {
+    free(truth->ranges);
     free(truth->transparent);
+    truth->ranges = NULL;
     truth->transparent = NULL;
 }
 
 /* ---- From a picture ---- */
 
-/* What a sample at the top may stand for: what was clamped, up to a stop of light. More would let a picture
- * with much of it be anything. */
-static const float BRIGHTEST = 1.25f;
-
-/* The range of linear colours that a sample may stand for: half a step of its rounding to both sides, and at
- * the top what was clamped. */
-static void sampleRange(const Image *image, size_t sample, float *low, float *middle, float *high)
-{
-    float highest = (float)imageMaxSample(image), v = (float)image->samples[sample];
-    float ends[3] = {fmaxf(v - 0.5f, 0) / highest, v / highest, fminf(v + 0.5f, highest) / highest};
-    if (image->encoding == ENCODING_SRGB)
-        for (int i = 0; i < 3; i++)
-            ends[i] = srgbToLinear(ends[i]);
-    *low = ends[0];
-    *middle = ends[1];
-    *high = v >= highest ? BRIGHTEST : ends[2];
-}
-
 /* What lies at a point between four pixels: where they are alike, their mean; at an edge anything between. */
-static void lookUpBetween(const Image *image, double x, double y, int channel, float *low, float *middle,
+static void lookUpBetween(const Truth *truth, double x, double y, int channel, float *low, float *middle,
                           float *high)
 {
+    const Image *image = truth->picture;
     const float alike = 0.06f; /* of linear light: more is an edge */
     int left = (int)floor(x), top = (int)floor(y);
     float fx = (float)(x - left), fy = (float)(y - top);
@@ -71,11 +73,10 @@ static void lookUpBetween(const Image *image, double x, double y, int channel, f
             if (share == 0)
                 continue;
             size_t pixel = (size_t)(top + j) * (size_t)image->width + (size_t)(left + i);
-            float from, at, to;
-            sampleRange(image, 3 * pixel + (size_t)channel, &from, &at, &to);
-            least = fminf(least, from);
-            most = fmaxf(most, to);
-            sum += share * at;
+            LightRange range = truth->ranges[image->samples[3 * pixel + (size_t)channel]];
+            least = fminf(least, range.low);
+            most = fmaxf(most, range.high);
+            sum += share * range.middle;
         }
     }
     *middle = sum;
@@ -104,9 +105,17 @@ static void backgroundOf(const Image *image, const uint16_t **color)
     }
 }
 
-static void lookUpPixel(const Image *image, const uint16_t *background, const EvidencePixel *pixel,
+/* Say that the pixel is not known. */
+static void setUnknown(Prediction *prediction, size_t pixel)
+{
+    prediction->low[0][3 * pixel] = 1;
+    prediction->high[0][3 * pixel] = 0;
+}
+
+static void lookUpPixel(const Truth *truth, const uint16_t *background, const EvidencePixel *pixel,
                         const ViewChange *view, size_t i, Prediction *prediction)
 {
+    const Image *image = truth->picture;
     double x = pixel->x + 0.5, y = pixel->y + 0.5;
     changePoint(view, image->width, image->height, &x, &y);
     x -= 0.5;
@@ -116,13 +125,12 @@ static void lookUpPixel(const Image *image, const uint16_t *background, const Ev
     if (fabs(y - round(y)) < 1e-6)
         y = round(y);
     if (!(x >= 0 && y >= 0 && x <= image->width - 1 && y <= image->height - 1)) {
-        prediction->low[0][3 * i] = 1;
-        prediction->high[0][3 * i] = 0;
+        setUnknown(prediction, i);
         return;
     }
     for (int c = 0; c < 3; c++) {
         size_t at = 3 * i + (size_t)c;
-        lookUpBetween(image, x, y, c, &prediction->low[0][at], &prediction->middle[at],
+        lookUpBetween(truth, x, y, c, &prediction->low[0][at], &prediction->middle[at],
                       &prediction->high[0][at]);
     }
     const uint16_t *nearest =
@@ -137,8 +145,11 @@ static void lookUpPixel(const Image *image, const uint16_t *background, const Ev
 typedef struct Tracing {
     const Truth *truth;
     const Evidence *evidence;
-    const ChangedFinder *finders; /* one for each alternative */
-    PixelRays rays;
+    const ViewChange *view;
+    const LightChange *changes; /* one for each alternative */
+    PixelMemory *memories;      /* one for each pixel, or NULL */
+    bool isBlurred;             /* the second alternative lies between pixels of the picture as drawn */
+    PixelRays rays, unmovedRays;
     Prediction *prediction;
 } Tracing;
 
@@ -148,16 +159,66 @@ static void movePoint(const void *view, int width, int height, double *x, double
     changePoint(view, width, height, x, y);
 }
 
-static ValuePlace findPlace(const Tracing *tracing, const EvidencePixel *pixel)
+/* Whether the view moves the picture by half a pixel. */
+static bool isHalfShift(const ViewChange *view)
+{
+    return fabs(view->shiftX) == 0.5 || fabs(view->shiftY) == 0.5;
+}
+
+static float encodeAs(const Evidence *evidence, float light)
+{
+    float v = fminf(fmaxf(light, 0), 1);
+    return evidence->format.encoding == ENCODING_SRGB ? linearToSrgb(v) : v;
+}
+
+/* A pixel of a picture that was drawn and then moved: the mean of the two or four pixels round the point, of
+ * their light (high) or of their samples (low, which is never more). */
+static void traceBetween(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel,
+                         float low[3], float high[3])
+{
+    const Evidence *evidence = tracing->evidence;
+    RayCounts counts = {0};
+    double x = pixel->x + 0.5, y = pixel->y + 0.5, light[3] = {0, 0, 0}, stored[3] = {0, 0, 0};
+    changePoint(tracing->view, evidence->width, evidence->height, &x, &y);
+    int left = (int)floor(x - 0.5), top = (int)floor(y - 0.5);
+    int right = (int)ceil(x - 0.5), bottom = (int)ceil(y - 0.5), count = 0;
+    for (int row = top; row <= bottom; row++) {
+        for (int column = left; column <= right; column++, count++) {
+            Color3f color = tracePixel(&tracing->unmovedRays, finder, column, row, &counts);
+            const float channels[3] = {color.r, color.g, color.b};
+            for (int c = 0; c < 3; c++) {
+                light[c] += (double)fminf(channels[c], 1);
+                stored[c] += (double)encodeAs(evidence, channels[c]);
+            }
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        float mean = (float)(stored[c] / count);
+        high[c] = (float)(light[c] / count);
+        low[c] = evidence->format.encoding == ENCODING_SRGB ? fminf(srgbToLinear(mean), high[c]) : high[c];
+    }
+}
+
+static ValuePlace findPlace(const Tracing *tracing, const SurfaceFinder *finder, const EvidencePixel *pixel)
 {
     Media media;
     Ray ray = pixelRay(&tracing->rays, pixel->x + 0.5, pixel->y + 0.5, &media);
     Hit hit;
-    const SurfaceFinder *finder = tracing->truth->finder;
     if (finder->nearest(finder, &ray, &hit) == NULL)
         return (ValuePlace){.isSurface = false};
     return (ValuePlace){.isSurface = true,
                         .diffuse = materialAt(hit.object, pointOnRay(&ray, hit.distance)).diffuse};
+}
+
+/* Whether a moved picture has nothing to show at the pixel but what its maker filled the border with. */
+static bool isBorder(const Tracing *tracing, const EvidencePixel *pixel)
+{
+    const ViewChange *view = tracing->view;
+    double x = pixel->x + 0.5, y = pixel->y + 0.5;
+    if (view->shiftX == 0 && view->shiftY == 0)
+        return false;
+    changePoint(view, tracing->evidence->width, tracing->evidence->height, &x, &y);
+    return x < 0.5 || y < 0.5 || x > tracing->evidence->width - 0.5 || y > tracing->evidence->height - 0.5;
 }
 
 static void traceChunk(void *context, size_t number)
@@ -165,12 +226,23 @@ static void traceChunk(void *context, size_t number)
     const Tracing *tracing = context;
     Prediction *prediction = tracing->prediction;
     size_t end = (number + 1) * CHUNK < prediction->count ? (number + 1) * CHUNK : prediction->count;
+    RayCursor cursor;
+    RememberingFinder base;
+    ChangedFinder finders[MAX_ALTERNATIVES];
+    createRememberingFinder(tracing->truth->finder, &cursor, &base);
+    for (int a = 0; a < prediction->alternatives; a++)
+        createChangedFinder(&base.finder, &tracing->changes[a], &finders[a]);
     for (size_t i = number * CHUNK; i < end && !cancelRequested(); i++) {
         const EvidencePixel *pixel = &tracing->evidence->pixels[i];
         for (int a = 0; a < prediction->alternatives; a++) {
+            beginPixel(&cursor, tracing->memories != NULL ? &tracing->memories[i] : NULL);
+            if (a == 1 && tracing->isBlurred) {
+                traceBetween(tracing, &finders[a].finder, pixel, prediction->low[a] + 3 * i,
+                             prediction->high[a] + 3 * i);
+                continue;
+            }
             RayCounts counts = {0};
-            Color3f color =
-                tracePixel(&tracing->rays, &tracing->finders[a].finder, pixel->x, pixel->y, &counts);
+            Color3f color = tracePixel(&tracing->rays, &finders[a].finder, pixel->x, pixel->y, &counts);
             const float channels[3] = {color.r, color.g, color.b};
             for (size_t c = 0; c < 3; c++) {
                 prediction->low[a][3 * i + c] = prediction->high[a][3 * i + c] = channels[c];
@@ -178,7 +250,9 @@ static void traceChunk(void *context, size_t number)
                     prediction->middle[3 * i + c] = channels[c];
             }
         }
-        prediction->places[i] = findPlace(tracing, pixel);
+        prediction->places[i] = findPlace(tracing, &base.finder, pixel);
+        if (isBorder(tracing, pixel))
+            setUnknown(prediction, i);
     }
 }
 
@@ -198,37 +272,45 @@ static int blockedWays(size_t lights, unsigned ways[MAX_ALTERNATIVES])
     return count;
 }
 
-static Status predictFromScene(const Truth *truth, const Evidence *evidence, const ViewChange *view,
-                               const LightChange *light, bool acne, Prediction *prediction)
+static Status predictFromScene(const Truth *truth, const Evidence *evidence, PixelMemory *memories,
+                               const ViewChange *view, const LightChange *light, bool acne,
+                               Prediction *prediction)
 {
     unsigned ways[MAX_ALTERNATIVES] = {0};
-    int count = acne ? blockedWays(truth->scene->lightCount, ways) : 1;
+    bool isBlurred = !acne && isHalfShift(view);
+    int count = acne ? blockedWays(truth->scene->lightCount, ways) : isBlurred ? 2 : 1;
     Status status = createPrediction(evidence->count, count, prediction);
     if (!statusIsOk(&status))
         return status;
-    ChangedFinder finders[MAX_ALTERNATIVES];
+    LightChange changes[MAX_ALTERNATIVES];
     for (int i = 0; i < count; i++) {
-        LightChange change = *light;
-        change.blockedLights = ways[i];
-        createChangedFinder(truth->finder, &change, &finders[i]);
+        changes[i] = *light;
+        changes[i].blockedLights = ways[i];
     }
     PixelRays rays = createPixelRays(truth->scene, evidence->width, evidence->height, truth->transparent,
                                      truth->transparentCount);
-    rays.movePoint = movePoint;
-    rays.moveContext = view;
-    Tracing tracing = {
-        .truth = truth, .evidence = evidence, .finders = finders, .rays = rays, .prediction = prediction};
+    Tracing tracing = {.truth = truth,
+                       .evidence = evidence,
+                       .view = view,
+                       .changes = changes,
+                       .memories = memories,
+                       .isBlurred = isBlurred,
+                       .rays = rays,
+                       .unmovedRays = rays,
+                       .prediction = prediction};
+    tracing.rays.movePoint = movePoint;
+    tracing.rays.moveContext = view;
     status = runTasks((evidence->count + CHUNK - 1) / CHUNK, truth->threads, traceChunk, &tracing);
     if (!statusIsOk(&status))
         freePrediction(prediction);
     return status;
 }
 
-Status predictPixels(const Truth *truth, const Evidence *evidence, const ViewChange *view,
-                     const LightChange *light, bool acne, Prediction *prediction)
+Status predictPixels(const Truth *truth, const Evidence *evidence, PixelMemory *memories,
+                     const ViewChange *view, const LightChange *light, bool acne, Prediction *prediction)
 {
     if (truth->scene != NULL)
-        return predictFromScene(truth, evidence, view, light, acne, prediction);
+        return predictFromScene(truth, evidence, memories, view, light, acne, prediction);
     if (cancelRequested())
         return statusInterrupted();
     Status status = createPrediction(evidence->count, 1, prediction);
@@ -237,6 +319,18 @@ Status predictPixels(const Truth *truth, const Evidence *evidence, const ViewCha
     const uint16_t *background;
     backgroundOf(truth->picture, &background);
     for (size_t i = 0; i < evidence->count; i++)
-        lookUpPixel(truth->picture, background, &evidence->pixels[i], view, i, prediction);
+        lookUpPixel(truth, background, &evidence->pixels[i], view, i, prediction);
     return statusOk();
+}
+
+size_t predictionCost(const Truth *truth)
+{
+    if (truth->scene == NULL)
+        return 1;
+    const Scene *scene = truth->scene;
+    size_t samples = (size_t)scene->render.samples, lamps = 0;
+    for (size_t i = 0; i < scene->lightCount; i++)
+        lamps += (size_t)lightSampleCount(&scene->lights[i]);
+    size_t ofLights = scene->lightCount > 0 ? lamps / scene->lightCount : 1;
+    return samples * samples * ofLights * (truth->transparentCount > 0 ? 4 : 1);
 }

@@ -2,6 +2,7 @@
 #include "explain/search.h"
 
 #include "base/cancel.h"
+#include "explain/sample_rounding.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,9 +15,11 @@ enum {
     ROUGH_STEP = 8,       /* of the pixels, while the grid of a number is gone through */
     GOLDEN_STEPS = 12,
     ROUGH_GOLDEN_STEPS = 5,
-    ROUGH_GRID = 6,   /* numbers of a grid that pairs are tried with */
-    KEPT_PAIRS = 24,  /* of the rough fits, measured again */
-    FITTED_PAIRS = 6, /* of those, fitted finely */
+    ROUGH_GRID = 6,    /* numbers of a grid that pairs are tried with, where each needs tracing */
+    MOST_NUMBERS = 20, /* that pairs are tried with at all */
+    NARROWED = 3,      /* numbers of the first of a pair for which the second's is narrowed down */
+    KEPT_PAIRS = 24,   /* of the rough fits, measured again */
+    FITTED_PAIRS = 6,  /* of those, fitted finely */
     KEPT_VIEWS = 3,
     KEPT_SINGLES = 12 /* of which one must be in a pair that needs tracing */
 };
@@ -24,19 +27,35 @@ enum {
 /* How much better a later hypothesis must be to take the place of an earlier, simpler one. */
 static const double MARGIN = 0.97;
 
+/* By how much it must be better besides, as a share of what rounding may leave: a right hypothesis leaves
+ * hardly a sample in a thousand off by a step. */
+static const double SLACK = 0.05;
+
 /* Two mistakes must leave less than this share of what one leaves. */
 static const double PAIR_SHARE = 0.6;
 
+/* Pairs whose error, with the numbers of the grids, is so many times that of the worst one kept are given up:
+ * that much is not gained between two numbers of a grid. */
+static const double HOPELESS = 3;
+
 /* What is left must be less than this share of what there was, for the cause to be named. */
 static const double EXPLAINED_SHARE = 0.2;
+
+/* The same for acne and something else: any lamp may be blocked anywhere, which explains a part of anything.
+ */
+static const double EXPLAINED_BY_ACNE = 0.05;
+
+/* The same where the first of two causes makes it worse alone. */
+static const double OPPOSED_SHARE = 0.03;
 
 typedef struct Search {
     const Truth *truth;
     const Traits *traits;
     const Evidence *evidence;
-    Prediction right; /* the neutral hypothesis */
-    bool isPlain;     /* the wrong picture has one colour, which nearly any values and views could give */
-    Status status;    /* the first failure */
+    Prediction right;      /* the neutral hypothesis */
+    PixelMemory *memories; /* of the rays of the neutral view; NULL: none are kept */
+    bool isPlain;  /* the wrong picture has one colour, which nearly any values and views could give */
+    Status status; /* the first failure */
 } Search;
 
 /* One or two traits with their numbers, and how well they fit. */
@@ -64,8 +83,9 @@ static bool predictFor(Search *search, const Hypothesis *hypothesis, bool onlyVa
     }
     if (!statusIsOk(&search->status))
         return false;
-    search->status = predictPixels(search->truth, search->evidence, &hypothesis->view, &hypothesis->light,
-                                   hypothesis->acne, prediction);
+    PixelMemory *memories = isNeutralView(&hypothesis->view) ? search->memories : NULL;
+    search->status = predictPixels(search->truth, search->evidence, memories, &hypothesis->view,
+                                   &hypothesis->light, hypothesis->acne, prediction);
     return statusIsOk(&search->status);
 }
 
@@ -90,7 +110,7 @@ static double scoreOf(const Misfit *misfit, double plainBefore)
 static double plainBefore(const Search *search)
 {
     ValueChange neutral = neutralValueChange();
-    return measureMisfit(search->evidence, &search->right, &neutral, 1).plain;
+    return measureMisfit(search->evidence, &search->right, &neutral, 1, INFINITY).plain;
 }
 
 /* ---- One number ---- */
@@ -105,7 +125,17 @@ typedef struct NumberFit {
     double before;
 } NumberFit;
 
-static double tryNumber(const NumberFit *fit, double number, size_t step)
+/* Whether a picture that is stretched is so by less than a pixel at its border. Then what lies between the
+ * pixels explains any other edges, as those of more samples. */
+static bool isHardlyStretched(const ViewChange *view, const Evidence *evidence)
+{
+    if (view->scaleX == 1 && view->scaleY == 1)
+        return false;
+    return fabs(view->scaleX - 1) * evidence->width < 2 && fabs(view->scaleY - 1) * evidence->height < 2;
+}
+
+/* The error with this number; above limit it may be INFINITY. */
+static double tryNumber(const NumberFit *fit, double number, size_t step, double limit)
 {
     fit->candidate->numbers[fit->which] = number;
     Hypothesis hypothesis = hypothesisOf(fit->candidate);
@@ -113,7 +143,7 @@ static double tryNumber(const NumberFit *fit, double number, size_t step)
     const Prediction *prediction = fit->prediction;
     if (cancelRequested())
         fit->search->status = statusInterrupted();
-    if (!statusIsOk(&fit->search->status))
+    if (!statusIsOk(&fit->search->status) || isHardlyStretched(&hypothesis.view, fit->search->evidence))
         return INFINITY;
     if (prediction == NULL) {
         if (!predictFor(fit->search, &hypothesis, false, &made))
@@ -121,7 +151,7 @@ static double tryNumber(const NumberFit *fit, double number, size_t step)
         prediction = &made;
         step = 1;
     }
-    Misfit misfit = measureMisfit(fit->search->evidence, prediction, &hypothesis.value, step);
+    Misfit misfit = measureMisfit(fit->search->evidence, prediction, &hypothesis.value, step, limit);
     if (fit->prediction == NULL)
         freePrediction(&made);
     return scoreOf(&misfit, fit->before);
@@ -137,20 +167,22 @@ static double fromScale(const Trait *trait, double scaled)
     return trait->isLogarithmic ? exp(scaled) : scaled;
 }
 
-/* Go through the grid of the trait's numbers, every stride-th, and return the place of the best. */
-static int goThroughGrid(const NumberFit *fit, int stride, size_t step)
+/* Go through the grid of the trait's numbers, on every step-th pixel, and return the place of the best.
+ * *least: the error up to which it counts; becomes its error, or INFINITY. */
+static int goThroughGrid(const NumberFit *fit, size_t step, double *least)
 {
     const Trait *trait = fit->candidate->traits[fit->which];
-    int best = 0;
-    double least = INFINITY;
-    for (int i = 0; i < trait->gridCount; i += stride) {
-        double rmse = tryNumber(fit, trait->grid[i], step);
-        if (rmse < least) {
-            least = rmse;
+    int best = -1;
+    for (int i = 0; i == 0 || i < trait->gridCount; i++) {
+        double rmse = tryNumber(fit, trait->grid != NULL ? trait->grid[i] : 0, step, *least);
+        if (rmse < *least) {
+            *least = rmse;
             best = i;
         }
     }
-    return best;
+    if (best < 0)
+        *least = INFINITY;
+    return best < 0 ? 0 : best;
 }
 
 /* Narrow the number down between from and to by the golden section, and leave the best in the candidate. */
@@ -160,31 +192,33 @@ static double narrowDown(const NumberFit *fit, double from, double to, int steps
     const double ratio = 0.6180339887498949;
     double a = toScale(trait, from), b = toScale(trait, to);
     double x = b - ratio * (b - a), y = a + ratio * (b - a);
-    double atX = tryNumber(fit, fromScale(trait, x), 1), atY = tryNumber(fit, fromScale(trait, y), 1);
+    double atX = tryNumber(fit, fromScale(trait, x), 1, INFINITY);
+    double atY = tryNumber(fit, fromScale(trait, y), 1, atX);
     for (int i = 0; i < steps; i++) {
+        /* The smaller of the two, which is kept, is known in full. */
         if (atX <= atY) {
             b = y;
             y = x;
             atY = atX;
             x = b - ratio * (b - a);
-            atX = tryNumber(fit, fromScale(trait, x), 1);
+            atX = tryNumber(fit, fromScale(trait, x), 1, atY);
         } else {
             a = x;
             x = y;
             atX = atY;
             y = a + ratio * (b - a);
-            atY = tryNumber(fit, fromScale(trait, y), 1);
+            atY = tryNumber(fit, fromScale(trait, y), 1, atX);
         }
     }
     double number = fromScale(trait, atX <= atY ? x : y), least = atX <= atY ? atX : atY;
 
     /* A round number close by is likelier, if it fits as well. */
     for (double digits = steps < GOLDEN_STEPS ? 1000 : 1; digits <= 100; digits *= 10) {
-        double rounded = round(number * digits) / digits;
+        double rounded = round(number * digits) / digits, most = least * 1.02 + 1e-9;
         if (fabs(rounded - number) > 0.02 * fabs(number) + 0.005 || (trait->isLogarithmic && rounded <= 0))
             continue;
-        double rmse = tryNumber(fit, rounded, 1);
-        if (rmse <= least * 1.02 + 1e-9) {
+        double rmse = tryNumber(fit, rounded, 1, most);
+        if (rmse <= most) {
             number = rounded;
             least = rmse;
             break;
@@ -194,21 +228,26 @@ static double narrowDown(const NumberFit *fit, double from, double to, int steps
     return least;
 }
 
-/* The best number of one trait of the candidate, with all else as it is. thorough: narrowed down. */
-static double fitNumber(const NumberFit *fit, bool thorough)
+/* Narrow the number down round a place in the grid. */
+static double narrowDownAt(const NumberFit *fit, int place, int steps)
 {
     const Trait *trait = fit->candidate->traits[fit->which];
-    if (trait->grid == NULL)
-        return tryNumber(fit, 0, 1);
-    bool isCheap = fit->prediction != NULL;
-    int stride = thorough || isCheap ? 1 : (trait->gridCount + ROUGH_GRID - 1) / ROUGH_GRID;
-    int best = goThroughGrid(fit, stride, isCheap && !trait->isWhole ? ROUGH_STEP : 1);
-    if (trait->isWhole || (!thorough && !isCheap))
-        return tryNumber(fit, trait->grid[best], 1);
-    const double *grid = trait->grid;
     int last = trait->gridCount - 1;
-    return narrowDown(fit, grid[best > 0 ? best - 1 : 0], grid[best < last ? best + 1 : last],
-                      thorough ? GOLDEN_STEPS : ROUGH_GOLDEN_STEPS);
+    return narrowDown(fit, trait->grid[place > 0 ? place - 1 : 0],
+                      trait->grid[place < last ? place + 1 : last], steps);
+}
+
+/* The best number of one trait of the candidate, with all else as it is. */
+static double fitNumber(const NumberFit *fit)
+{
+    const Trait *trait = fit->candidate->traits[fit->which];
+    double least = INFINITY;
+    bool isCheap = fit->prediction != NULL && trait->grid != NULL && !trait->isWhole;
+    int best = goThroughGrid(fit, isCheap ? ROUGH_STEP : 1, &least);
+    if (trait->grid != NULL && !trait->isWhole)
+        return narrowDownAt(fit, best, GOLDEN_STEPS);
+    fit->candidate->numbers[fit->which] = trait->grid != NULL ? trait->grid[best] : 0;
+    return least;
 }
 
 /* Narrow the number down between its neighbours in the grid. */
@@ -222,7 +261,7 @@ static double fitNumberNear(const NumberFit *fit, double number)
         if (trait->grid[last - i] > number * (1 + 1e-9) + 1e-12)
             above = last - i;
     }
-    double old = tryNumber(fit, number, 1),
+    double old = tryNumber(fit, number, 1, INFINITY),
            rmse = narrowDown(fit, trait->grid[below], trait->grid[above], GOLDEN_STEPS);
     if (rmse <= old)
         return rmse;
@@ -236,44 +275,121 @@ static double fitSingle(Search *search, Candidate *candidate, double before)
 {
     bool isValue = candidate->traits[0]->part == TRAIT_VALUE;
     NumberFit fit = {search, candidate, 0, isValue ? &search->right : NULL, before};
-    candidate->rmse = fitNumber(&fit, true);
+    candidate->rmse = fitNumber(&fit);
     return candidate->rmse;
 }
 
 /* ---- Two traits ---- */
 
-/* Roughly fit both: the first's numbers are gone through, and for each the second is fitted. */
-static void fitPairRoughly(Search *search, Candidate *pair, double before)
+/* The numbers of a trait that pairs are tried with: number i, or false when there are no more. A trait
+ * without numbers has one, without meaning; of those that need tracing only some of the grid are taken. */
+static bool roughNumber(const Trait *trait, int i, double *number)
 {
-    const Trait *first = pair->traits[0];
-    bool secondIsValue = pair->traits[1]->part == TRAIT_VALUE;
-    bool isCheap = first->grid == NULL || first->part == TRAIT_VALUE;
-    int stride = isCheap ? 1 : (first->gridCount + ROUGH_GRID - 1) / ROUGH_GRID;
-    Candidate best = *pair;
-    best.rmse = INFINITY;
-    for (int i = 0; i == 0 || i < first->gridCount; i += stride) {
-        Candidate tried = *pair;
-        tried.numbers[0] = first->grid != NULL ? first->grid[i] : 0;
-        tried.numbers[1] = pair->traits[1]->grid != NULL ? pair->traits[1]->grid[0] : 0;
-        Prediction prediction;
-        const Prediction *shared = NULL;
-        Hypothesis hypothesis = hypothesisOf(&tried);
-        bool onlyValues = changesOnlyValues(&tried);
-        if (secondIsValue) {
-            if (!predictFor(search, &hypothesis, onlyValues, &prediction))
-                return;
-            shared = &prediction;
-        }
-        NumberFit fit = {search, &tried, 1, shared, before};
-        tried.rmse = fitNumber(&fit, false);
-        if (secondIsValue && !onlyValues)
-            freePrediction(&prediction);
-        if (tried.rmse < best.rmse)
-            best = tried;
-        if (!statusIsOk(&search->status))
+    bool isCheap = trait->part == TRAIT_VALUE;
+    int place = i * (isCheap ? 1 : (trait->gridCount + ROUGH_GRID - 1) / ROUGH_GRID);
+    if (trait->grid == NULL ? i > 0 : place >= trait->gridCount)
+        return false;
+    *number = trait->grid != NULL ? trait->grid[place] : 0;
+    return true;
+}
+
+/* The first of a pair with its numbers, and what is predicted for each. */
+typedef struct FirstTrait {
+    const Trait *trait;
+    double numbers[MOST_NUMBERS];
+    Prediction predictions[MOST_NUMBERS]; /* of a trait that only changes values all the same one */
+    int count;
+} FirstTrait;
+
+static void predictFirst(Search *search, const Trait *trait, FirstTrait *first)
+{
+    *first = (FirstTrait){.trait = trait};
+    double number;
+    for (int i = 0; i < MOST_NUMBERS && roughNumber(trait, i, &number); i++) {
+        Candidate single = {.traits = {trait}, .numbers = {number}, .count = 1};
+        Hypothesis hypothesis = hypothesisOf(&single);
+        if (!predictFor(search, &hypothesis, trait->part == TRAIT_VALUE, &first->predictions[i]))
             return;
+        first->numbers[i] = number;
+        first->count++;
     }
-    *pair = best;
+}
+
+static void freeFirst(FirstTrait *first)
+{
+    for (int i = 0; i < first->count && first->trait->part != TRAIT_VALUE; i++)
+        freePrediction(&first->predictions[i]);
+}
+
+/* A number of the first of a pair, with the best place in the grid of the second. */
+typedef struct RoughPlace {
+    int first, second;
+    double rmse;
+} RoughPlace;
+
+/* Those that fit best so far. */
+typedef struct RoughPlaces {
+    RoughPlace items[NARROWED];
+    int count;
+} RoughPlaces;
+
+static void keepPlace(RoughPlaces *places, RoughPlace found)
+{
+    if (places->count == NARROWED && found.rmse >= places->items[NARROWED - 1].rmse)
+        return;
+    int at = places->count < NARROWED ? places->count++ : NARROWED - 1;
+    for (; at > 0 && places->items[at - 1].rmse > found.rmse; at--)
+        places->items[at] = places->items[at - 1];
+    places->items[at] = found;
+}
+
+/* Fit a pair whose second changes only values: all numbers of both on few pixels, then the best of the first
+ * on more of them, with the second's narrowed down. What is above limit on the few is given up; then the
+ * result has no traits. */
+static Candidate fitValueSecond(Search *search, const FirstTrait *first, const Trait *second, double before,
+                                double limit)
+{
+    Candidate best = {.rmse = INFINITY};
+    RoughPlaces places = {.count = 0};
+    bool isNarrowed = second->grid != NULL && !second->isWhole;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < (pass == 0 ? first->count : places.count); i++) {
+            int k = pass == 0 ? i : places.items[i].first;
+            Candidate tried = {.traits = {first->trait, second}, .numbers = {first->numbers[k]}, .count = 2};
+            NumberFit fit = {search, &tried, 1, &first->predictions[k], before};
+            if (pass == 0) {
+                double least = places.count < NARROWED ? limit : places.items[NARROWED - 1].rmse;
+                int place = goThroughGrid(&fit, ROUGH_STEP, &least);
+                if (!isinf(least))
+                    keepPlace(&places, (RoughPlace){k, place, least});
+                continue;
+            }
+            int place = places.items[i].second;
+            tried.rmse = isNarrowed
+                             ? narrowDownAt(&fit, place, ROUGH_GOLDEN_STEPS)
+                             : tryNumber(&fit, second->grid != NULL ? second->grid[place] : 0, 1, best.rmse);
+            if (tried.rmse < best.rmse)
+                best = tried;
+        }
+    }
+    return best;
+}
+
+/* Fit a pair that needs tracing for every two numbers: some of the first's with some of the second's. */
+static Candidate fitTracedSecond(Search *search, const Trait *first, const Trait *second, double before)
+{
+    Candidate best = {.rmse = INFINITY};
+    Candidate tried = {.traits = {first, second}, .count = 2};
+    NumberFit fit = {search, &tried, 1, NULL, before};
+    for (int i = 0; roughNumber(first, i, &tried.numbers[0]); i++) {
+        double number;
+        for (int k = 0; roughNumber(second, k, &number) && statusIsOk(&search->status); k++) {
+            tried.rmse = tryNumber(&fit, number, 1, best.rmse);
+            if (tried.rmse < best.rmse)
+                best = tried;
+        }
+    }
+    return best;
 }
 
 /* The error of a candidate in this search's evidence. */
@@ -284,7 +400,7 @@ static double measureCandidate(Search *search, const Candidate *candidate, doubl
     Prediction prediction;
     if (!predictFor(search, &hypothesis, onlyValues, &prediction))
         return INFINITY;
-    Misfit misfit = measureMisfit(search->evidence, &prediction, &hypothesis.value, 1);
+    Misfit misfit = measureMisfit(search->evidence, &prediction, &hypothesis.value, 1, INFINITY);
     if (!onlyValues)
         freePrediction(&prediction);
     return scoreOf(&misfit, before);
@@ -326,6 +442,12 @@ static void keepPair(Candidate *kept, int *count, const Candidate *pair)
     kept[at] = *pair;
 }
 
+/* The error of the last pair that is kept. */
+static double worstKept(const Candidate *kept, int count)
+{
+    return count == KEPT_PAIRS ? kept[KEPT_PAIRS - 1].rmse : INFINITY;
+}
+
 /* ---- The whole search ---- */
 
 /* Whether the trait's prediction is the right picture itself in the evidence: then it can be left out. */
@@ -342,12 +464,24 @@ static bool changesNothing(Search *search, const Candidate *single)
     return same;
 }
 
-static Status beginSearch(Search *search, const Truth *truth, const Traits *traits, const Evidence *evidence)
+/* remembers: whether the rays are kept, for evidence of few pixels that is asked often. */
+static Status beginSearch(Search *search, const Truth *truth, const Traits *traits, const Evidence *evidence,
+                          bool remembers)
 {
     ViewChange view = neutralViewChange();
     LightChange light = neutralLightChange();
     *search = (Search){.truth = truth, .traits = traits, .evidence = evidence, .status = statusOk()};
-    return predictPixels(truth, evidence, &view, &light, false, &search->right);
+    if (remembers && (search->memories = calloc(evidence->count + 1, sizeof *search->memories)) == NULL)
+        return statusOutOfMemory();
+    return predictPixels(truth, evidence, search->memories, &view, &light, false, &search->right);
+}
+
+static void endSearch(Search *search)
+{
+    freePrediction(&search->right);
+    for (size_t i = 0; search->memories != NULL && i < search->evidence->count; i++)
+        freePixelMemory(&search->memories[i]);
+    free(search->memories);
 }
 
 static bool isOneColor(const Image *image)
@@ -356,24 +490,11 @@ static bool isOneColor(const Image *image)
     return memcmp(image->samples, image->samples + 3, (count - 3) * sizeof *image->samples) == 0;
 }
 
-/* How many times as many rays as the simplest scenes' the pixels have, roughly. */
-static size_t costOf(const Truth *truth)
-{
-    if (truth->scene == NULL)
-        return 1;
-    const Scene *scene = truth->scene;
-    size_t samples = (size_t)scene->render.samples, lamps = 0;
-    for (size_t i = 0; i < scene->lightCount; i++)
-        lamps += (size_t)lightSampleCount(&scene->lights[i]);
-    size_t ofLights = scene->lightCount > 0 ? lamps / scene->lightCount : 1;
-    return samples * samples * ofLights * (truth->transparentCount > 0 ? 4 : 1);
-}
-
 /* What rounding alone may leave. */
 static double roundingFloor(const Truth *truth, const Evidence *evidence)
 {
     bool coarse = evidence->format.bitDepth == 8 || (truth->picture != NULL && truth->picture->bitDepth == 8);
-    return coarse ? 0.4 / 255 : 0.6 / 65535;
+    return roundingError(coarse ? 8 : 16);
 }
 
 /* Whether the pair is worth trying: of two views, or a view and something else, only the best views; of two
@@ -387,8 +508,9 @@ static bool isPairTried(const Search *search, const double *singles, size_t i, s
     bool aView = a->part == TRAIT_VIEW && singles[i] > viewLimit;
     bool bView = b->part == TRAIT_VIEW && singles[j] > viewLimit;
     bool isTurned = a->cause == CAUSE_MIRRORED || a->cause == CAUSE_FLIPPED;
+    /* Mirrored and flipped, or one of them shifted or stretched; and of these two, where one is likely. */
     if (a->part == TRAIT_VIEW && b->part == TRAIT_VIEW)
-        return isTurned; /* mirrored and flipped, or one of them shifted or stretched */
+        return isTurned || !aView || !bView;
     bool isTraced = a->part >= TRAIT_LIGHT || b->part >= TRAIT_LIGHT;
     return !aView && !bView && (!isTraced || fmin(singles[i], singles[j]) <= limit);
 }
@@ -420,13 +542,15 @@ static Candidate findBestSingle(Search *search, double *singles, double *numbers
     Candidate best = {.rmse = INFINITY};
     double before = plainBefore(search);
     for (size_t i = 0; i < search->traits->count && statusIsOk(&search->status); i++) {
+        if (best.rmse * MARGIN < SLACK * floorError)
+            break; /* no other one can be so much better; then the rest is not asked for either */
         const Trait *trait = &search->traits->items[i];
         Candidate single = {.traits = {trait}, .count = 1};
         single.numbers[0] = trait->grid != NULL ? trait->grid[0] : 0;
         bool isLeftOut = (search->isPlain && trait->part != TRAIT_LIGHT) || changesNothing(search, &single);
         singles[i] = isLeftOut ? INFINITY : fitSingle(search, &single, before);
         numbers[i] = single.numbers[0];
-        if (!isinf(singles[i]) && single.rmse < best.rmse * MARGIN - 0.2 * floorError * (best.count > 0))
+        if (!isinf(singles[i]) && single.rmse < best.rmse * MARGIN - SLACK * floorError * (best.count > 0))
             best = single;
     }
     return best;
@@ -453,7 +577,8 @@ static int findPairs(Search *rough, const double *singles, Candidate kept[KEPT_P
     double before = plainBefore(rough);
     double viewLimit = limitOfBest(rough->traits, singles, true, KEPT_VIEWS);
     double limit = limitOfBest(rough->traits, singles, false, KEPT_SINGLES);
-    for (size_t i = 0; i < rough->traits->count; i++) {
+    for (size_t i = 0; i < rough->traits->count && statusIsOk(&rough->status); i++) {
+        FirstTrait first = {.count = 0};
         for (size_t j = 0; j < rough->traits->count && statusIsOk(&rough->status); j++) {
             /* The part that needs a new prediction goes first, so that values are fitted to it. */
             const Trait *a = &rough->traits->items[i], *b = &rough->traits->items[j];
@@ -461,10 +586,18 @@ static int findPairs(Search *rough, const double *singles, Candidate kept[KEPT_P
                 continue;
             if (!isPairTried(rough, singles, i, j, viewLimit, limit))
                 continue;
-            Candidate pair = {.traits = {a, b}, .count = 2};
-            fitPairRoughly(rough, &pair, before);
-            keepPair(kept, &count, &pair);
+            Candidate pair;
+            if (b->part == TRAIT_VALUE) {
+                if (first.count == 0)
+                    predictFirst(rough, a, &first);
+                pair = fitValueSecond(rough, &first, b, before, HOPELESS * worstKept(kept, count));
+            } else {
+                pair = fitTracedSecond(rough, a, b, before);
+            }
+            if (pair.count > 0)
+                keepPair(kept, &count, &pair);
         }
+        freeFirst(&first);
     }
     return count;
 }
@@ -485,7 +618,7 @@ static Candidate chooseCandidate(Search *fine, Search *rough, double *singles, d
     }
     for (int i = 0; i < count && i < FITTED_PAIRS && statusIsOk(&fine->status); i++) {
         fitPairFinely(fine, &kept[i], before, floorError);
-        if (kept[i].rmse < best.rmse * MARGIN - 0.2 * floorError * (best.count > 0))
+        if (kept[i].rmse < best.rmse * MARGIN - SLACK * floorError * (best.count > 0))
             best = kept[i];
     }
     if (best.count == 0 || best.rmse > PAIR_SHARE * single.rmse)
@@ -503,7 +636,8 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
         return;
     double left = measureCandidate(full, chosen, before);
     bool isRounding = left <= 2 * floorError && before >= 6 * floorError;
-    if (left >= EXPLAINED_SHARE * before && !isRounding)
+    double share = chosen->count > 1 && hypothesisOf(chosen).acne ? EXPLAINED_BY_ACNE : EXPLAINED_SHARE;
+    if (left >= share * before && !isRounding)
         return;
     for (int i = 0; i < chosen->count; i++) {
         Candidate part = *chosen;
@@ -513,27 +647,29 @@ static void storeFindings(Search *full, const Candidate *chosen, double floorErr
                       .number = chosen->numbers[i],
                       .residual = i + 1 < chosen->count ? measureCandidate(full, &part, before) : left};
     }
-    /* A first cause that makes it worse only serves the second: together they fit by chance. */
-    if (findings->items[0].residual > before)
+    /* Where the first cause alone makes it worse, two may fit by chance; but two mistakes that act against
+     * each other, as acne and a gamma that brightens, or mirrored and flipped, leave next to nothing. */
+    if (findings->items[0].residual > before && left > OPPOSED_SHARE * before && !isRounding)
         return;
     findings->count = chosen->count;
 }
 
-Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const Traits *traits,
-                    Findings *findings)
+Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const bool *isIgnored,
+                    const Traits *traits, Findings *findings)
 {
     *findings = (Findings){0};
     /* Fewer pixels where each has many rays. */
-    size_t share = costOf(truth);
+    size_t share = predictionCost(truth);
     const size_t most[3] = {ROUGH_PIXELS / share + 200, FINE_PIXELS / share + 400,
                             FULL_PIXELS / share + 2000};
     Evidence evidence[3] = {{.count = 0}, {.count = 0}, {.count = 0}};
     Search searches[3] = {{.truth = NULL}, {.truth = NULL}, {.truth = NULL}};
-    Status status = statusOk();
+    bool *isDifferent = findDifferentPixels(wrong, right);
+    Status status = isDifferent != NULL ? statusOk() : statusOutOfMemory();
     for (int i = 0; i < 3 && statusIsOk(&status); i++) {
-        status = gatherEvidence(wrong, right, most[i], &evidence[i]);
+        status = gatherEvidence(wrong, isDifferent, isIgnored, most[i], &evidence[i]);
         if (statusIsOk(&status))
-            status = beginSearch(&searches[i], truth, traits, &evidence[i]);
+            status = beginSearch(&searches[i], truth, traits, &evidence[i], truth->scene != NULL && i < 2);
         searches[i].isPlain = isOneColor(wrong);
     }
     if (statusIsOk(&status)) {
@@ -544,8 +680,9 @@ Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, 
             status = searches[i].status;
     }
     for (int i = 0; i < 3; i++) {
-        freePrediction(&searches[i].right);
+        endSearch(&searches[i]);
         freeEvidence(&evidence[i]);
     }
+    free(isDifferent);
     return status;
 }

@@ -27,8 +27,9 @@ typedef struct Findings {
 } Findings;
 
 /* Fit the traits to the wrong picture; right is how the right one would be stored, of the same size.
- * STATUS_IO when memory runs out, STATUS_INTERRUPTED when cancelled. */
-Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const Traits *traits,
-                    Findings *findings);
+ * isIgnored: the pixels that are not looked at, or NULL. STATUS_IO when memory runs out, STATUS_INTERRUPTED
+ * when cancelled. */
+Status searchCauses(const Truth *truth, const Image *wrong, const Image *right, const bool *isIgnored,
+                    const Traits *traits, Findings *findings);
 
 #endif

@@ -11,6 +11,10 @@
 /* Add one; more than MAX_TRAITS are left out. */
 void addTrait(Traits *traits, Trait trait);
 
+/* Add one with a choice, or with each choice of a range, both ends included. */
+void addChoice(Traits *traits, Trait trait, int choice);
+void addChoices(Traits *traits, Trait trait, int first, int last);
+
 /* Add all of a kind; scene may be NULL, but for light. */
 void addValueTraits(const Scene *scene, StoredFormat file, Traits *traits);
 void addViewTraits(Traits *traits);

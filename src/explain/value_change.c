@@ -32,13 +32,18 @@ static float placedOffset(const ValueChange *change, const ValuePlace *place, in
 
 static float toLevel(float v, float highest, bool truncated)
 {
-    return floorf(v * highest + (truncated ? 0 : 0.5f)) / highest;
+    /* Not negative, so the conversion rounds down. */
+    return (float)(int)(v * highest + (truncated ? 0 : 0.5f)) / highest;
 }
 
 void storedSamples(const ValueChange *change, StoredFormat format, const ValuePlace *place,
-                   const float linear[3], float stored[3])
+                   const float linear[3], float stored[restrict 3])
 {
     const float fileHighest = format.bitDepth == 16 ? 65535 : 255;
+    const float offset = change->storedOnSurfaces && !place->isSurface ? 0 : change->storedOffset;
+    /* The encoding: as often as the file says, and once more or once less. */
+    const int times = (format.encoding == ENCODING_SRGB) + (change->encoding == ENCODED_TWICE) -
+                      (change->encoding == NOT_ENCODED);
     float samples[3];
     for (int i = 0; i < 3; i++) {
         /* Light. */
@@ -49,16 +54,12 @@ void storedSamples(const ValueChange *change, StoredFormat format, const ValuePl
         if (change->levels > 1 && change->levelsLinear)
             v = toLevel(v, (float)(change->levels - 1), change->truncated);
 
-        /* The encoding: as often as the file says, and once more or once less. */
-        int times = (format.encoding == ENCODING_SRGB) + (change->encoding == ENCODED_TWICE) -
-                    (change->encoding == NOT_ENCODED);
-        for (; times > 0; times--)
-            v = linearToSrgb(v);
+        for (int k = 0; k < times; k++)
+            v = change->curvePower > 0 ? powf(v, change->curvePower) : linearToSrgb(v);
         if (times < 0)
             v = srgbToLinear(v);
         if (change->storedPower != 1)
             v = powf(v, change->storedPower);
-        float offset = change->storedOnSurfaces && !place->isSurface ? 0 : change->storedOffset;
         samples[i] = clampSample(v * change->storedScale + offset);
         if (change->levels > 1 && !change->levelsLinear)
             samples[i] = toLevel(samples[i], (float)(change->levels - 1), change->truncated);

@@ -36,6 +36,7 @@ typedef struct ValueChange {
     OffsetPlace offsetPlace;
     float linearPower; /* exponent of linear light; 1 */
     EncodingMistake encoding;
+    float curvePower;      /* light to this power is stored in place of the sRGB curve; 0: the curve */
     float storedPower;     /* exponent of the stored sample; 1 */
     float storedScale;     /* of the stored sample; 1 */
     float storedOffset;    /* added to the stored sample; 0 */

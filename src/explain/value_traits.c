@@ -8,6 +8,7 @@
 static const double FACTORS[] = {1 / 32., 1 / 16., 1 / 8., 1 / 5., 1 / 3., 0.5, 0.7, 0.85, 0.95,
                                  1.05,    1.2,     1.4,    2,      3,      5,   8,   16,   32};
 static const double POWERS[] = {0.3, 0.45, 0.6, 0.75, 0.9, 1.1, 1.35, 1.7, 2.2, 3};
+static const double CURVE_POWERS[] = {1.4, 1.6, 1.8, 2, 2.2, 2.4, 2.6, 2.8};
 static const double OFFSETS[] = {-0.5, -0.2, -0.1, -0.05, -0.02, -0.005, 0.005, 0.02, 0.05, 0.1, 0.2, 0.5};
 static const double LEVELS[] = {4, 5, 6, 7, 8, 10, 16, 32, 64, 128, 256};
 static const double DROPPED_BITS[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
@@ -56,6 +57,21 @@ static void tellPower(const Trait *trait, double number, const Scene *scene, Tex
     textAppend(text, number > 1 ? " decoded once too often)" : " applied once too often)");
 }
 
+static void applyCurvePower(const Trait *trait, double number, Hypothesis *hypothesis)
+{
+    (void)trait;
+    hypothesis->value.curvePower = (float)(1 / number);
+}
+
+static void tellCurvePower(const Trait *trait, double number, const Scene *scene, Text *text)
+{
+    (void)trait;
+    (void)scene;
+    textAppend(text, "the samples are encoded by the power 1/");
+    textAppendRounded(text, number, 3);
+    textAppend(text, " and not by the sRGB curve");
+}
+
 static void applyScale(const Trait *trait, double number, Hypothesis *hypothesis)
 {
     if (trait->choice == 0)
@@ -82,7 +98,7 @@ static void applyOffset(const Trait *trait, double number, Hypothesis *hypothesi
 static void tellOffset(const Trait *trait, double number, const Scene *scene, Text *text)
 {
     (void)scene;
-    textAppend(text, number > 0 ? "an ambient light of " : "an ambient light of ");
+    textAppend(text, "an ambient light of ");
     textAppendRounded(text, fabs(number), 3);
     textAppend(text, number > 0 ? " is added " : " is missing ");
     textAppend(text, trait->choice == OFFSET_EVERYWHERE    ? "everywhere, the background included"
@@ -215,8 +231,7 @@ static void applyStretch(const Trait *trait, double number, Hypothesis *hypothes
 static void tellStretch(const Trait *trait, double number, const Scene *scene, Text *text)
 {
     (void)scene;
-    static const char *const WAYS[] = {"the picture shows ", "the picture shows ", "the picture shows "};
-    textAppend(text, WAYS[trait->choice]);
+    textAppend(text, "the picture shows ");
     textAppendRounded(text, number, 3);
     textAppend(text, trait->choice == 0 ? " times its width in the same space: the aspect of the picture is "
                                           "not that of the camera"
@@ -226,127 +241,149 @@ static void tellStretch(const Trait *trait, double number, const Scene *scene, T
                          : " times its width and height: the angle of view is another one");
 }
 
+/* ---- The list, without the choices ---- */
+
+static const char AMBIENT_FORMULA[] = "color = ambient * render.ambient + emission + ...";
+static const char LEVEL_FORMULA[] = "sample = floor(v * (2^bits - 1) + 1/2)";
+
+static const Trait CHANNELS = {.cause = CAUSE_CHANNELS,
+                               .part = TRAIT_VALUE,
+                               .apply = applyChannels,
+                               .tell = tellChannels,
+                               .formula = "the order in which r, g and b are written"};
+static const Trait ENCODED = {.cause = CAUSE_GAMMA,
+                              .part = TRAIT_VALUE,
+                              .apply = applyEncoding,
+                              .tell = tellEncoding,
+                              .formula = GAMMA_FORMULA,
+                              .key = "encoding"};
+static const Trait POWER = {.cause = CAUSE_GAMMA,
+                            .part = TRAIT_VALUE,
+                            .apply = applyPower,
+                            GRID(POWERS),
+                            .isLogarithmic = true,
+                            .tell = tellPower,
+                            .formula = GAMMA_FORMULA,
+                            .key = "encoding"};
+static const Trait CURVE_POWER = {.cause = CAUSE_GAMMA,
+                                  .part = TRAIT_VALUE,
+                                  .apply = applyCurvePower,
+                                  GRID(CURVE_POWERS),
+                                  .tell = tellCurvePower,
+                                  .formula = GAMMA_FORMULA,
+                                  .key = "encoding"};
+static const Trait SCALE = {.cause = CAUSE_EXPOSURE,
+                            .part = TRAIT_VALUE,
+                            .apply = applyScale,
+                            GRID(FACTORS),
+                            .isLogarithmic = true,
+                            .tell = tellScale,
+                            .formula = CLAMP_FORMULA,
+                            .key = "color"};
+static const Trait OFFSET = {.cause = CAUSE_AMBIENT,
+                             .part = TRAIT_VALUE,
+                             .apply = applyOffset,
+                             GRID(OFFSETS),
+                             .tell = tellOffset,
+                             .formula = AMBIENT_FORMULA,
+                             .key = "ambient"};
+static const Trait STORED_OFFSET = {.cause = CAUSE_AMBIENT,
+                                    .part = TRAIT_VALUE,
+                                    .apply = applyStoredOffset,
+                                    GRID(OFFSETS),
+                                    .tell = tellStoredOffset,
+                                    .formula = AMBIENT_FORMULA,
+                                    .key = "ambient"};
+static const Trait BITS_DROPPED = {.cause = CAUSE_QUANTISATION,
+                                   .part = TRAIT_VALUE,
+                                   .apply = applyDroppedBits,
+                                   GRID(DROPPED_BITS),
+                                   .isWhole = true,
+                                   .tell = tellDroppedBits,
+                                   .formula = LEVEL_FORMULA,
+                                   .key = "bit_depth"};
+static const Trait FEW_LEVELS = {.cause = CAUSE_QUANTISATION,
+                                 .part = TRAIT_VALUE,
+                                 .apply = applyLevels,
+                                 GRID(LEVELS),
+                                 .isWhole = true,
+                                 .tell = tellLevels,
+                                 .formula = LEVEL_FORMULA,
+                                 .key = "bit_depth"};
+static const Trait MIRRORED = {.cause = CAUSE_MIRRORED,
+                               .part = TRAIT_VIEW,
+                               .apply = applyMirrored,
+                               .tell = tellMirrored,
+                               .formula = "right = cross(forward, up)",
+                               .key = "camera"};
+static const Trait FLIPPED = {.cause = CAUSE_FLIPPED,
+                              .part = TRAIT_VIEW,
+                              .apply = applyMirrored,
+                              .choice = 1,
+                              .tell = tellMirrored,
+                              .formula = "v = (height - y) / height - 1/2",
+                              .key = "up"};
+static const Trait SHIFT = {.cause = CAUSE_SHIFT,
+                            .part = TRAIT_VIEW,
+                            .apply = applyShift,
+                            .tell = tellShift,
+                            .formula = "the ray goes through (x + 1/2, y + 1/2)"};
+static const Trait STRETCH = {.cause = CAUSE_ASPECT,
+                              .part = TRAIT_VIEW,
+                              .apply = applyStretch,
+                              GRID(STRETCHES),
+                              .isLogarithmic = true,
+                              .tell = tellStretch,
+                              .formula = "height = 2 tan(fov/2), width = height * columns / rows",
+                              .key = "width"};
+
 /* ---- The list ---- */
+
+static void addShifts(Traits *traits, double step)
+{
+    Trait shift = SHIFT;
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++) {
+            shift.shiftX = x * step;
+            shift.shiftY = y * step;
+            if (x != 0 || y != 0)
+                addTrait(traits, shift);
+        }
+}
 
 void addValueTraits(const Scene *scene, StoredFormat file, Traits *traits)
 {
     static const int ORDERS[] = {21, 102, 120, 201, 210};
     for (size_t i = 0; i < sizeof ORDERS / sizeof *ORDERS; i++)
-        addTrait(traits, (Trait){.cause = CAUSE_CHANNELS,
-                                 .part = TRAIT_VALUE,
-                                 .apply = applyChannels,
-                                 .choice = ORDERS[i],
-                                 .tell = tellChannels,
-                                 .formula = "the order in which r, g and b are written"});
-    for (int mistake = ENCODED_TWICE; mistake <= NOT_ENCODED; mistake++)
-        addTrait(traits, (Trait){.cause = CAUSE_GAMMA,
-                                 .part = TRAIT_VALUE,
-                                 .apply = applyEncoding,
-                                 .choice = mistake,
-                                 .tell = tellEncoding,
-                                 .formula = GAMMA_FORMULA,
-                                 .key = "encoding"});
-    addTrait(traits, (Trait){.cause = CAUSE_EXPOSURE,
-                             .part = TRAIT_VALUE,
-                             .apply = applyScale,
-                             GRID(FACTORS),
-                             .isLogarithmic = true,
-                             .tell = tellScale,
-                             .formula = CLAMP_FORMULA,
-                             .key = "color"});
-    for (int choice = 0; choice < 2; choice++)
-        addTrait(traits, (Trait){.cause = CAUSE_GAMMA,
-                                 .part = TRAIT_VALUE,
-                                 .apply = applyPower,
-                                 GRID(POWERS),
-                                 .isLogarithmic = true,
-                                 .choice = choice,
-                                 .tell = tellPower,
-                                 .formula = GAMMA_FORMULA,
-                                 .key = "encoding"});
-    addTrait(traits, (Trait){.cause = CAUSE_EXPOSURE,
-                             .part = TRAIT_VALUE,
-                             .apply = applyScale,
-                             GRID(FACTORS),
-                             .isLogarithmic = true,
-                             .choice = 1,
-                             .tell = tellScale,
-                             .formula = CLAMP_FORMULA,
-                             .key = "color"});
-    for (int place = OFFSET_EVERYWHERE; place <= OFFSET_ON_DIFFUSE; place++)
-        if (place != OFFSET_ON_DIFFUSE || scene != NULL)
-            addTrait(traits, (Trait){.cause = CAUSE_AMBIENT,
-                                     .part = TRAIT_VALUE,
-                                     .apply = applyOffset,
-                                     GRID(OFFSETS),
-                                     .choice = place,
-                                     .tell = tellOffset,
-                                     .formula = "color = ambient * render.ambient + emission + ...",
-                                     .key = "ambient"});
-    for (int choice = 0; choice < 2; choice++)
-        addTrait(traits, (Trait){.cause = CAUSE_AMBIENT,
-                                 .part = TRAIT_VALUE,
-                                 .apply = applyStoredOffset,
-                                 GRID(OFFSETS),
-                                 .choice = choice,
-                                 .tell = tellStoredOffset,
-                                 .formula = "color = ambient * render.ambient + emission + ...",
-                                 .key = "ambient"});
-    addTrait(traits, (Trait){.cause = CAUSE_QUANTISATION,
-                             .part = TRAIT_VALUE,
-                             .apply = applyDroppedBits,
-                             .grid = DROPPED_BITS,
-                             .gridCount = file.bitDepth == 16 ? 14 : 6,
-                             .isWhole = true,
-                             .tell = tellDroppedBits,
-                             .formula = "sample = floor(v * (2^bits - 1) + 1/2)",
-                             .key = "bit_depth"});
+        addChoice(traits, CHANNELS, ORDERS[i]);
+    addChoices(traits, ENCODED, ENCODED_TWICE, NOT_ENCODED);
+    addChoice(traits, SCALE, 0);
+    addChoices(traits, POWER, 0, 1);
+    if (file.encoding == ENCODING_SRGB)
+        addTrait(traits, CURVE_POWER);
+    addChoice(traits, SCALE, 1);
+    addChoices(traits, OFFSET, OFFSET_EVERYWHERE, scene != NULL ? OFFSET_ON_DIFFUSE : OFFSET_ON_SURFACES);
+    addChoices(traits, STORED_OFFSET, 0, 1);
+    Trait dropped = BITS_DROPPED;
+    dropped.gridCount = file.bitDepth == 16 ? dropped.gridCount : 6;
+    addTrait(traits, dropped);
     for (int choice = 0; choice < 4; choice++) {
-        bool ofFile = choice == (file.encoding == ENCODING_LINEAR ? 1 : 0) && file.bitDepth == 8;
-        addTrait(traits, (Trait){.cause = CAUSE_QUANTISATION,
-                                 .part = TRAIT_VALUE,
-                                 .apply = applyLevels,
-                                 .grid = LEVELS,
-                                 /* 256 levels of an 8-bit file are no mistake. */
-                                 .gridCount = (int)(sizeof LEVELS / sizeof *LEVELS) - ofFile,
-                                 .isWhole = true,
-                                 .choice = choice,
-                                 .tell = tellLevels,
-                                 .formula = "sample = floor(v * (2^bits - 1) + 1/2)",
-                                 .key = "bit_depth"});
+        Trait levels = FEW_LEVELS;
+        /* 256 levels of an 8-bit file are no mistake. */
+        if (choice == (file.encoding == ENCODING_LINEAR ? 1 : 0) && file.bitDepth == 8)
+            levels.gridCount--;
+        addChoice(traits, levels, choice);
     }
 }
 
 void addViewTraits(Traits *traits)
 {
-    for (int choice = 0; choice < 2; choice++)
-        addTrait(traits, (Trait){.cause = choice == 0 ? CAUSE_MIRRORED : CAUSE_FLIPPED,
-                                 .part = TRAIT_VIEW,
-                                 .apply = applyMirrored,
-                                 .choice = choice,
-                                 .tell = tellMirrored,
-                                 .formula = choice == 0 ? "right = cross(forward, up)"
-                                                        : "v = (height - y) / height - 1/2",
-                                 .key = choice == 0 ? "camera" : "up"});
-    for (int half = 0; half < 2; half++)
-        for (int y = -1; y <= 1; y++)
-            for (int x = -1; x <= 1; x++)
-                if (x != 0 || y != 0)
-                    addTrait(traits, (Trait){.cause = CAUSE_SHIFT,
-                                             .part = TRAIT_VIEW,
-                                             .apply = applyShift,
-                                             .shiftX = half ? x * 0.5 : x,
-                                             .shiftY = half ? y * 0.5 : y,
-                                             .tell = tellShift,
-                                             .formula = "the ray goes through (x + 1/2, y + 1/2)"});
-    for (int way = 0; way < 3; way++)
-        addTrait(traits, (Trait){.cause = CAUSE_ASPECT,
-                                 .part = TRAIT_VIEW,
-                                 .apply = applyStretch,
-                                 GRID(STRETCHES),
-                                 .isLogarithmic = true,
-                                 .choice = way,
-                                 .tell = tellStretch,
-                                 .formula = "height = 2 tan(fov/2), width = height * columns / rows",
-                                 .key = way == 2 ? "fov" : "width"});
+    addTrait(traits, MIRRORED);
+    addTrait(traits, FLIPPED);
+    addShifts(traits, 1);
+    addShifts(traits, 0.5);
+    addChoices(traits, STRETCH, 0, 1);
+    Trait both = STRETCH;
+    both.key = "fov";
+    addChoice(traits, both, 2);
 }

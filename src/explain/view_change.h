@@ -17,6 +17,12 @@ static inline ViewChange neutralViewChange(void)
     return (ViewChange){.scaleX = 1, .scaleY = 1};
 }
 
+static inline bool isNeutralView(const ViewChange *change)
+{
+    return !change->mirrored && !change->flipped && change->shiftX == 0 && change->shiftY == 0 &&
+           change->scaleX == 1 && change->scaleY == 1;
+}
+
 /* Replace a point of the wrong picture, in pixels from the top left corner, by that of the right one. */
 static inline void changePoint(const ViewChange *change, int width, int height, double *x, double *y)
 {

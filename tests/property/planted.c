@@ -81,7 +81,7 @@ static void ambientAdded(Scene *scene)
 typedef struct Student {
     SurfaceFinder finder;
     SurfaceFinder honest;
-    bool unclamped, absolute, flipped, inverse, oneMore, allShadows, shortHighlight;
+    bool unclamped, absolute, flipped, inverse, oneMore, allTerms, allShadows, shortHighlight;
 } Student;
 
 static const Object *studentNearest(const SurfaceFinder *finder, const Ray *ray, Hit *hit)
@@ -123,6 +123,8 @@ static Color3f studentShade(const SurfaceFinder *finder, const SurfacePoint *poi
                 weaker = d; /* 1/d */
             if (student->oneMore)
                 weaker = d * d / (1 + d * d);
+            if (student->allTerms)
+                weaker = d * d / (1 + d + d * d);
         }
         double cosine = dot(n, arriving.direction);
         bool behind = cosine <= 0;
@@ -222,6 +224,40 @@ static void shiftByOne(Framebuffer *f)
                 (size_t)(f->width - 1) * sizeof *f->pixels);
 }
 
+static void shiftDownFromBlack(Framebuffer *f)
+{
+    size_t width = (size_t)f->width, height = (size_t)f->height;
+    memmove(f->pixels + width, f->pixels, (height - 1) * width * sizeof *f->pixels);
+    for (size_t x = 0; x < width; x++)
+        f->pixels[x] = createColor(0, 0, 0);
+}
+
+/* As an image program moves a picture: the mean of two neighbours, and black from outside. */
+static void shiftBetweenPixels(Framebuffer *f)
+{
+    for (int y = 0; y < f->height; y++)
+        for (int x = 0; x < f->width; x++) {
+            Color3f *here = &f->pixels[y * f->width + x];
+            Color3f next = x + 1 < f->width ? here[1] : createColor(0, 0, 0);
+            *here = scaleColor(addColors(*here, next), 0.5);
+        }
+}
+
+static void turnHalf(Framebuffer *f)
+{
+    mirrorPicture(f);
+    flipPicture(f);
+}
+
+/* Of a picture that was clamped already. */
+static void dimClamped(Framebuffer *f)
+{
+    for (int i = 0; i < f->width * f->height; i++) {
+        Color3f c = f->pixels[i];
+        f->pixels[i] = createColor(fminf(c.r, 1) * 0.7f, fminf(c.g, 1) * 0.7f, fminf(c.b, 1) * 0.7f);
+    }
+}
+
 static float gammaTwo(float v)
 {
     return powf(v, 1 / 2.2f);
@@ -242,6 +278,11 @@ static float neverEncode(float v)
     return srgbToLinear(v);
 }
 
+static float powerForCurve(float v)
+{
+    return powf(srgbToLinear(v), 1 / 2.2f);
+}
+
 static float fewLevels(float v)
 {
     return floorf(v * 15 + 0.5f) / 15;
@@ -257,6 +298,7 @@ static float cutOff(float v)
 typedef struct Mistake {
     const char *name;
     Cause cause;
+    Cause orCause; /* which it may as well be called; 0: none */
     void (*inScene)(Scene *scene);
     size_t studentFlag; /* offset of a flag of Student, or 0 */
     double rayX, rayY;  /* where the rays go within a pixel, besides the middle */
@@ -264,6 +306,7 @@ typedef struct Mistake {
     void (*inPicture)(Framebuffer *framebuffer);
     float (*inSamples)(float v); /* as stored, 0..1 */
     bool isSeenAlone;            /* where it is the only one, two pictures are enough */
+    bool isOfCurve;              /* a mistake only where samples are encoded */
 } Mistake;
 
 #define FLAG(name) .studentFlag = offsetof(Student, name)
@@ -274,6 +317,7 @@ static const Mistake MISTAKES[] = {
     {"no falloff", CAUSE_FALLOFF, .inScene = noFalloff},
     {"falloff 1/d", CAUSE_FALLOFF, FLAG(inverse)},
     {"falloff 1/(1+d^2)", CAUSE_FALLOFF, FLAG(oneMore)},
+    {"falloff 1/(1+d+d^2)", CAUSE_FALLOFF, FLAG(allTerms)},
     {"the other highlight", CAUSE_BLINN, .inScene = blinnForPhong},
     {"shininess 10", CAUSE_SHININESS, .inScene = shininessTen, .isSeenAlone = true},
     {"shininess times 2.5", CAUSE_SHININESS, .inScene = shininessDoubled},
@@ -287,12 +331,16 @@ static const Mistake MISTAKES[] = {
     {"ambient times diffuse", CAUSE_AMBIENT, .inScene = ambientAdded},
     {"exposure 1.7", CAUSE_EXPOSURE, .inPicture = doubleExposure},
     {"exposure 0.6", CAUSE_EXPOSURE, .inPicture = halfExposure},
+    {"exposure 0.7 after clamping", CAUSE_EXPOSURE, .inPicture = dimClamped},
     {"grey added", CAUSE_AMBIENT, .inPicture = grayAdded},
     {"mirrored", CAUSE_MIRRORED, .inPicture = mirrorPicture},
     {"flipped", CAUSE_FLIPPED, .inPicture = flipPicture},
+    {"half a turn", CAUSE_MIRRORED, .orCause = CAUSE_FLIPPED, .inPicture = turnHalf},
     {"red and blue swapped", CAUSE_CHANNELS, .inPicture = swapRedAndBlue},
     {"channels turned", CAUSE_CHANNELS, .inPicture = turnChannels},
     {"shifted by one", CAUSE_SHIFT, .inPicture = shiftByOne},
+    {"shifted down from black", CAUSE_SHIFT, .inPicture = shiftDownFromBlack},
+    {"half a pixel, blurred", CAUSE_SHIFT, .inPicture = shiftBetweenPixels},
     {"half a pixel", CAUSE_SHIFT, .rayX = -0.5, .rayY = -0.5},
     {"half a pixel to the right", CAUSE_SHIFT, .rayX = 0.5},
     {"aspect 1", CAUSE_ASPECT, .stretch = 0.75},
@@ -301,6 +349,7 @@ static const Mistake MISTAKES[] = {
     {"gamma taken away", CAUSE_GAMMA, .inSamples = gammaDown},
     {"sRGB twice", CAUSE_GAMMA, .inSamples = encodeTwice},
     {"never encoded", CAUSE_GAMMA, .inSamples = neverEncode},
+    {"a power for the curve", CAUSE_GAMMA, .inSamples = powerForCurve, .isOfCurve = true},
     {"16 levels", CAUSE_QUANTISATION, .inSamples = fewLevels},
     {"32 levels cut off", CAUSE_QUANTISATION, .inSamples = cutOff},
 };
@@ -399,7 +448,9 @@ static void judge(Tally *tally, const char *scene, const char *how, const Mistak
 {
     const Explanations *causes = &explanation->causes;
     Cause first = causes->count > 0 ? causes->items[0].cause : CAUSE_COUNT;
-    bool right = first == mistakes[0]->cause || (mistakes[1] != NULL && first == mistakes[1]->cause);
+    bool right = false;
+    for (int i = 0; i < 2 && mistakes[i] != NULL; i++)
+        right |= first == mistakes[i]->cause || (mistakes[i]->orCause != 0 && first == mistakes[i]->orCause);
     tally->asked++;
     tally->right += right;
     if (right && !tally->verbose)
@@ -425,6 +476,8 @@ static void plant(Tally *tally, const char *path, const Scene *scene, const Mist
                   const Mistake *second, int bits, Encoding encoding)
 {
     const Mistake *mistakes[2] = {first, second}, *none[2] = {NULL, NULL};
+    if (encoding == ENCODING_LINEAR && (first->isOfCurve || (second != NULL && second->isOfCurve)))
+        return;
     Framebuffer *wrong = createFramebuffer(scene->image.width, scene->image.height);
     Framebuffer *right = createFramebuffer(scene->image.width, scene->image.height);
     Image planted, honest;
@@ -469,7 +522,9 @@ static bool canMeet(const Mistake *a, const Mistake *b)
     /* Two of one cause, or two that change the same thing. */
     bool views = (a->rayX != 0 || a->rayY != 0 || a->stretch != 0) &&
                  (b->rayX != 0 || b->rayY != 0 || b->stretch != 0);
-    return a->cause != b->cause && !views &&
+    bool areTurns =
+        (a->orCause != 0 && a->orCause == b->cause) || (b->orCause != 0 && b->orCause == a->cause);
+    return a->cause != b->cause && !views && !areTurns &&
            !(a->cause == CAUSE_NORMALS && b->cause != CAUSE_MIRRORED && b->cause != CAUSE_FLIPPED);
 }
 

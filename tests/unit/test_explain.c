@@ -3,6 +3,7 @@
 #include "explain/evidence.h"
 #include "explain/explain_picture.h"
 #include "explain/light_change.h"
+#include "explain/sample_rounding.h"
 #include "explain/scene_lines.h"
 #include "explain/search.h"
 #include "explain/value_change.h"
@@ -16,6 +17,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -98,6 +100,10 @@ static void testValueMistakes(void **state)
     change.encoding = ENCODED_TWICE;
     assertStored(change, LINEAR, SURFACE, encode(0.1), encode(0.2), encode(0.4));
     assertStored(change, SRGB, SURFACE, encode(encode(0.1)), encode(encode(0.2)), encode(encode(0.4)));
+    change.encoding = ENCODED_RIGHT;
+    change.curvePower = 0.5f;
+    assertStored(change, SRGB, SURFACE, sqrt(0.1), sqrt(0.2), sqrt(0.4));
+    change.curvePower = 0;
     change.encoding = NOT_ENCODED;
     assertStored(change, SRGB, SURFACE, 0.1, 0.2, 0.4);
     assertStored(change, LINEAR, SURFACE, decode(0.1), decode(0.2), decode(0.4));
@@ -247,6 +253,14 @@ static void testFalloffMistakes(void **state)
     assertLightTimes(SCENE, change, 50 / 26.);
     change.falloff = FALLOFF_ONE_MORE;
     assertLightTimes(SCENE, change, 25 / 26.);
+    change.fadeDistance = 10;
+    assertLightTimes(SCENE, change, 20);
+    change.falloff = FALLOFF_POVRAY;
+    assertLightTimes(SCENE, change, 40);
+    change.falloff = FALLOFF_LINEAR;
+    assertLightTimes(SCENE, change, 25 / 6.);
+    change.falloff = FALLOFF_ALL_TERMS;
+    assertLightTimes(SCENE, change, 25 / 31.);
 }
 
 static void testHighlightMistakes(void **state)
@@ -455,8 +469,11 @@ static size_t countEvidence(int whitePixels, size_t most, size_t *white)
 {
     Image wrong = makeImage(20, 10, whitePixels), right = makeImage(20, 10, 0);
     Evidence evidence;
-    Status status = gatherEvidence(&wrong, &right, most, &evidence);
+    bool *isDifferent = findDifferentPixels(&wrong, &right);
+    assert_non_null(isDifferent);
+    Status status = gatherEvidence(&wrong, isDifferent, NULL, most, &evidence);
     assert_true(statusIsOk(&status));
+    free(isDifferent);
     double sum = 0, whiteSum = 0;
     *white = 0;
     for (size_t i = 0; i < evidence.count; i++) {
@@ -495,6 +512,91 @@ static void testEvidence(void **state)
     assert_int_equal(countEvidence(70, 100000, &white), 200);
 }
 
+/* ---- Rounding ---- */
+
+/* Whether one-pixel pictures with these red samples differ. */
+static bool differ(int aBits, Encoding aEncoding, unsigned aRed, int bBits, Encoding bEncoding, unsigned bRed)
+{
+    uint16_t aSamples[3] = {(uint16_t)aRed, 0, 0}, bSamples[3] = {(uint16_t)bRed, 0, 0};
+    Image a = {.width = 1, .height = 1, .bitDepth = aBits, .encoding = aEncoding, .samples = aSamples};
+    Image b = {.width = 1, .height = 1, .bitDepth = bBits, .encoding = bEncoding, .samples = bSamples};
+    assert_int_equal(pixelsDiffer(&a, &b, 0), pixelsDiffer(&b, &a, 0));
+    return pixelsDiffer(&a, &b, 0);
+}
+
+static void testRounding(void **state)
+{
+    (void)state;
+    assert_false(differ(8, ENCODING_SRGB, 100, 8, ENCODING_SRGB, 101));
+    assert_true(differ(8, ENCODING_SRGB, 100, 8, ENCODING_SRGB, 102));
+    assert_false(differ(16, ENCODING_LINEAR, 100, 16, ENCODING_LINEAR, 101));
+    assert_true(differ(16, ENCODING_LINEAR, 100, 16, ENCODING_LINEAR, 102));
+    assert_false(differ(8, ENCODING_SRGB, 1, 16, ENCODING_SRGB, 640)); /* 257 is one step of 8 bits */
+    assert_true(differ(8, ENCODING_SRGB, 1, 16, ENCODING_SRGB, 650));
+    /* 188 is 0.5029, and the steps to both sides are 0.0045 wide there: 130 is 0.5098. */
+    assert_false(differ(8, ENCODING_SRGB, 188, 8, ENCODING_LINEAR, 128));
+    assert_false(differ(8, ENCODING_SRGB, 188, 8, ENCODING_LINEAR, 129));
+    assert_true(differ(8, ENCODING_SRGB, 188, 8, ENCODING_LINEAR, 131));
+    /* In the dark a step of the curve is little light, and a linear one is much. */
+    assert_false(differ(8, ENCODING_SRGB, 13, 8, ENCODING_LINEAR, 1));
+    assert_true(differ(16, ENCODING_SRGB, 3341, 16, ENCODING_LINEAR, 290)); /* 13/255 is 264 of 65535 */
+}
+
+/* ---- Remembered rays ---- */
+
+static void testRayMemory(void **state)
+{
+    (void)state;
+    /* A mirror, glass and two lamps, of which a sphere hides one in part. */
+    Scene scene = load(
+        "lights:\n"
+        "  - point: {position: [3, 2, 0], color: 25}\n"
+        "  - area: {center: [-3, 4, -2], edge_u: [1, 0, 0], edge_v: [0, 0, 1], samples: [2, 2], color: 9}\n"
+        "objects:\n"
+        "  - sphere: {center: [0, 0, -5], radius: 1.5, material: {reflection: 0.5, specular: 0.5}}\n"
+        "  - sphere: {center: [1, 0.5, -3], radius: 0.5, material: {transmission: 0.7, ior: 1.5}}\n"
+        "  - plane: {point: [0, -1, 0], normal: [0, 1, 0]}\n");
+    CompiledScene *compiled;
+    Status status = compileScene(&scene, 1, &compiled);
+    assert_true(statusIsOk(&status));
+    Truth truth;
+    status = truthOfScene(compiledFinder(compiled), 2, &truth);
+    assert_true(statusIsOk(&status));
+    enum {
+        COUNT = 200
+    };
+    EvidencePixel pixels[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        pixels[i] = (EvidencePixel){.x = i % 20, .y = i / 20, .weight = 1};
+    Evidence evidence = {.format = LINEAR, .width = 20, .height = 10, .pixels = pixels, .count = COUNT};
+    PixelMemory memories[COUNT] = {{.hits = NULL}};
+    LightChange changes[4] = {neutralLightChange(), neutralLightChange(), neutralLightChange(),
+                              neutralLightChange()};
+    changes[1].shadows = SHADOWS_TOO_LONG;
+    changes[2].highlight = HIGHLIGHT_NONE;
+    ViewChange view = neutralViewChange();
+    for (int i = 0; i < 4; i++) {
+        Prediction with, without;
+        status = predictPixels(&truth, &evidence, memories, &view, &changes[i], false, &with);
+        assert_true(statusIsOk(&status));
+        status = predictPixels(&truth, &evidence, NULL, &view, &changes[i], false, &without);
+        assert_true(statusIsOk(&status));
+        assert_memory_equal(with.low[0], without.low[0], 3 * COUNT * sizeof(float));
+        freePrediction(&with);
+        freePrediction(&without);
+    }
+    size_t hits = 0, lights = 0;
+    for (int i = 0; i < COUNT; i++) {
+        hits += memories[i].hitCount;
+        lights += memories[i].lightCount;
+        freePixelMemory(&memories[i]);
+    }
+    assert_true(hits > COUNT && lights > COUNT);
+    freeTruth(&truth);
+    freeCompiledScene(compiled);
+    freeScene(&scene);
+}
+
 static void testMisfit(void **state)
 {
     (void)state;
@@ -509,28 +611,34 @@ static void testMisfit(void **state)
         prediction.low[0][i] = prediction.high[0][i] = prediction.low[1][i] = prediction.high[1][i] = 0.5f;
     }
     ValueChange neutral = neutralValueChange();
-    Misfit misfit = measureMisfit(&evidence, &prediction, &neutral, 1);
+    Misfit misfit = measureMisfit(&evidence, &prediction, &neutral, 1, INFINITY);
     assert_true(fabs(misfit.rmse - 0.5) < 1e-4 && misfit.plain == misfit.rmse && misfit.known == 1);
+
+    /* What is above the limit need not be known, and what is below must. */
+    misfit = measureMisfit(&evidence, &prediction, &neutral, 1, 0.49);
+    assert_true(isinf(misfit.rmse));
+    misfit = measureMisfit(&evidence, &prediction, &neutral, 1, 0.51);
+    assert_true(fabs(misfit.rmse - 0.5) < 1e-4 && misfit.known == 1);
 
     /* A second way that is right for the black one: the nearer of the two counts. */
     for (int i = 3; i < 6; i++)
         prediction.low[1][i] = prediction.high[1][i] = 0;
-    misfit = measureMisfit(&evidence, &prediction, &neutral, 1);
+    misfit = measureMisfit(&evidence, &prediction, &neutral, 1, INFINITY);
     assert_true(fabs(misfit.rmse - 0.25) < 1e-4 && misfit.plain == misfit.rmse);
 
     /* A range that holds the white one, whose middle is off by a half. */
     for (int i = 0; i < 3; i++)
         prediction.high[0][i] = 1;
-    misfit = measureMisfit(&evidence, &prediction, &neutral, 1);
+    misfit = measureMisfit(&evidence, &prediction, &neutral, 1, INFINITY);
     assert_true(misfit.rmse == 0 && fabs(misfit.plain - 0.25) < 1e-4);
 
     /* Nothing is known of the black one. */
     prediction.low[0][3] = 1;
     prediction.high[0][3] = 0;
-    misfit = measureMisfit(&evidence, &prediction, &neutral, 1);
+    misfit = measureMisfit(&evidence, &prediction, &neutral, 1, INFINITY);
     assert_true(misfit.rmse == 0 && misfit.known == 0.25);
     prediction.low[0][0] = 2;
-    misfit = measureMisfit(&evidence, &prediction, &neutral, 1);
+    misfit = measureMisfit(&evidence, &prediction, &neutral, 1, INFINITY);
     assert_true(isinf(misfit.rmse) && misfit.known == 0);
     freePrediction(&prediction);
 }
@@ -658,7 +766,7 @@ static Findings searchScene(const Scene *scene, const Image *wrong, const Image 
     listTraits(scene, (StoredFormat){8, ENCODING_SRGB}, traits);
     assert_true(traits->count < MAX_TRAITS);
     Findings findings;
-    status = searchCauses(&truth, wrong, right, traits, &findings);
+    status = searchCauses(&truth, wrong, right, NULL, traits, &findings);
     assert_true(statusIsOk(&status));
     freeTruth(&truth);
     freeCompiledScene(compiled);
@@ -760,6 +868,8 @@ int main(void)
         cmocka_unit_test(testFlatNormalsAndBackHighlights),
         cmocka_unit_test(testNeutralLightIsTheTracers),
         cmocka_unit_test(testEvidence),
+        cmocka_unit_test(testRounding),
+        cmocka_unit_test(testRayMemory),
         cmocka_unit_test(testMisfit),
         cmocka_unit_test(testKeyLines),
         cmocka_unit_test(testPlaces),
