@@ -12,12 +12,11 @@
 #include <string.h>
 
 enum {
-    WIDTH = 960,
-    HEIGHT = 720,
-    LEFT = 20,
+    WIDTH = 720, /* about the column of a page, so that the words are as large as the page's */
+    LEFT = 16,
     TOP = 64,
-    VIEW_WIDTH = 920,
-    VIEW_HEIGHT = 540,
+    VIEW_WIDTH = 688,
+    VIEW_HEIGHT = 460,
     VECTOR_LENGTH = 84, /* of a unit vector in the plane */
     MOST_OBJECTS = 24,
     MOST_RAYS_DRAWN = 40,
@@ -369,7 +368,8 @@ static void drawCamera(Drawing *drawing, DrawnPoint at)
         textAppend(text, i < 2 ? "L" : "Z\"/>\n");
     }
     appendCircle(text, at, 5, "fill=\"" INK "\"");
-    keepOffMark(&drawing->board, at, 12);
+    keepOffMark(&drawing->board, at, 8);
+    keepOffMark(&drawing->board, (DrawnPoint){at.x + 13 * x, at.y + 13 * y}, 11);
     askForLabel(&drawing->board, at, "camera", INK, false, true);
 }
 
@@ -378,8 +378,8 @@ static void drawCamera(Drawing *drawing, DrawnPoint at)
 /* One entry of the legend. */
 static void legendEntry(Drawing *drawing, double *x, double *y, const char *stroke, const char *words)
 {
-    double width = 44 + 6.9 * (double)countCharacters(words);
-    if (*x + width > WIDTH - 20) {
+    double width = 46 + 7.1 * (double)countCharacters(words);
+    if (*x + width > WIDTH) {
         *x = LEFT;
         *y += 20;
     }
@@ -398,7 +398,16 @@ static void legendEntry(Drawing *drawing, double *x, double *y, const char *stro
     *x += width;
 }
 
-static void drawLegend(Drawing *drawing)
+static void appendNote(Drawing *drawing, double y, const char *words)
+{
+    textAppend(drawing->text, "<text class=\"note\"");
+    appendAttribute(drawing->text, "x", LEFT);
+    appendAttribute(drawing->text, "y", y);
+    textAppendFormat(drawing->text, ">%s</text>\n", words);
+}
+
+/* Returns the height of the whole drawing, which ends below the legend. */
+static int drawLegend(Drawing *drawing)
 {
     const RayStory *ray = drawing->story->ray;
     double x = LEFT, y = TOP + VIEW_HEIGHT + 26;
@@ -427,17 +436,13 @@ static void drawLegend(Drawing *drawing)
             legendEntry(drawing, &x, &y, "stroke=\"" HIGHLIGHT_COLOR "\" stroke-width=\"2.5\"",
                         ray->model == MODEL_PHONG ? "R, L mirrored at N" : "H, halfway between L and V");
     }
-    Text *text = drawing->text;
-    textAppend(text, "<text class=\"note\" x=\"20\"");
-    appendAttribute(text, "y", y + 24);
-    textAppend(text,
-               ">Objects as the plane cuts them; a dotted circle: a sphere beside the plane. What leaves the "
-               "plane is drawn as its projection, so shorter.</text>\n");
-    if (drawing->hasOmitted) {
-        textAppend(text, "<text class=\"note\" x=\"20\"");
-        appendAttribute(text, "y", y + 42);
-        textAppend(text, ">Not all objects, lights and rays are drawn.</text>\n");
-    }
+    y += 6;
+    appendNote(drawing, y += 18,
+               "Objects as the plane cuts them; a dotted circle: a sphere beside the plane.");
+    appendNote(drawing, y += 18, "What leaves the plane is drawn as its projection, so shorter.");
+    if (drawing->hasOmitted)
+        appendNote(drawing, y += 18, "Not all objects, lights and rays are drawn.");
+    return (int)y + 16;
 }
 
 /* What the drawing shows, for those who cannot see it. */
@@ -480,24 +485,24 @@ static void appendDescription(Drawing *drawing)
     textFree(&words);
 }
 
-static void beginPage(Drawing *drawing, const char *name)
+static void beginPage(Drawing *drawing, const char *name, int height)
 {
     Text *text = drawing->text;
     textAppendFormat(text,
                      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
                      "height=\"%d\" fill=\"" INK "\" role=\"img\" aria-labelledby=\"title desc\">\n"
                      "<title id=\"title\">Pixel (%d, %d) of ",
-                     WIDTH, HEIGHT, WIDTH, HEIGHT, drawing->story->x, drawing->story->y);
+                     WIDTH, height, WIDTH, height, drawing->story->x, drawing->story->y);
     appendEscaped(text, name);
     const char *view = viewOfPlane(&drawing->plane, drawing->story->scene->camera.up);
     textAppendFormat(text, ", seen %s</title>\n<desc id=\"desc\">", view);
     appendDescription(drawing);
     textAppendFormat(text,
                      "</desc>\n"
-                     "<style>text { font: 13px system-ui, sans-serif; text-anchor: middle; } .labels text { "
+                     "<style>text { font: 14px system-ui, sans-serif; text-anchor: middle; } .labels text { "
                      "paint-order: stroke; stroke: #fbfbf9; stroke-width: 4px; "
                      "stroke-linejoin: round; } .head { font-size: 17px; font-weight: 600; } .note { "
-                     "font-size: 12px; } .head, .note, .key { text-anchor: start; }</style>\n"
+                     "font-size: 13px; } .head, .note, .key { text-anchor: start; }</style>\n"
                      "<defs><clipPath id=\"view\"><rect x=\"%d\" y=\"%d\" width=\"%d\" "
                      "height=\"%d\"/></clipPath>\n",
                      LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT);
@@ -507,10 +512,10 @@ static void beginPage(Drawing *drawing, const char *name)
     appendMarker(text, "arrow-r", HIGHLIGHT_COLOR);
     textAppendFormat(text,
                      "</defs>\n<rect width=\"%d\" height=\"%d\" fill=\"#fbfbf9\"/>\n"
-                     "<text class=\"head\" x=\"20\" y=\"28\">Pixel (%d, %d) of ",
-                     WIDTH, HEIGHT, drawing->story->x, drawing->story->y);
+                     "<text class=\"head\" x=\"16\" y=\"28\">Pixel (%d, %d) of ",
+                     WIDTH, height, drawing->story->x, drawing->story->y);
     appendEscaped(text, name);
-    textAppend(text, "</text>\n<text class=\"note\" x=\"20\" y=\"48\">The plane through "
+    textAppend(text, "</text>\n<text class=\"note\" x=\"16\" y=\"49\">The plane through "
                      "the ray of the camera");
     if (drawing->light != NULL)
         textAppendFormat(text, " and light %zu", drawing->light->light + 1);
@@ -522,15 +527,15 @@ static void beginPage(Drawing *drawing, const char *name)
 
 void writeStorySvg(const PixelStory *story, const char *name, Text *text)
 {
+    Text body = {0};
     Drawing drawing = {.story = story,
-                       .text = text,
+                       .text = &body,
                        .plane = {.left = LEFT, .top = TOP, .width = VIEW_WIDTH, .height = VIEW_HEIGHT},
                        .board = {.view = {LEFT, TOP, VIEW_WIDTH, VIEW_HEIGHT}}};
     const RayStory *ray = story->ray;
     double far = sceneLength(story);
     drawing.light = choosePlane(story, far, &drawing.plane);
-    beginPage(&drawing, name);
-    textAppend(text, "<g clip-path=\"url(#view)\">\n");
+    textAppend(&body, "<g clip-path=\"url(#view)\">\n");
 
     /* Draw the objects; those of the story first on the list, the others as long as there is room. */
     wantObjectsOf(&drawing, ray);
@@ -556,15 +561,21 @@ void writeStorySvg(const PixelStory *story, const char *name, Text *text)
         keepOffMark(&drawing.board, end, 6);
         drawLights(&drawing);
         drawVectors(&drawing);
-        appendCircle(text, end, 4.5, "fill=\"" INK "\"");
+        appendCircle(&body, end, 4.5, "fill=\"" INK "\"");
         askForLabel(&drawing.board, end, "P", INK, false, true);
     }
     for (size_t i = 0; i < drawing.objectCount; i++)
         if (drawn[i] && (i == 0 || isLargeEnough(boxes[i])))
             labelObject(&drawing, drawing.objects[i], boxes[i]);
-    textAppend(text, "</g>\n<g class=\"labels\">\n");
-    placeLabels(&drawing.board, text);
-    textAppend(text, "</g>\n");
-    drawLegend(&drawing);
+    textAppend(&body, "</g>\n<g class=\"labels\">\n");
+    placeLabels(&drawing.board, &body);
+    textAppend(&body, "</g>\n");
+    int height = drawLegend(&drawing);
+
+    drawing.text = text;
+    beginPage(&drawing, name, height);
+    textAppendBytes(text, textString(&body), body.length);
     textAppend(text, "</svg>\n");
+    text->failed = text->failed || body.failed;
+    textFree(&body);
 }

@@ -47,7 +47,7 @@ static void placeLabel(LabelBoard *board, const Label *label, Text *text)
     static const double ways[8][2] = {{0.7, -0.7}, {-0.7, -0.7}, {0.7, 0.7}, {-0.7, 0.7},
                                       {0, -1},     {0, 1},       {1, 0},     {-1, 0}};
     static const double distances[] = {0, 12, 20, 30, 44, 62, 84};
-    double width = 7.3 * (double)countCharacters(label->words) + 4, height = 16;
+    double width = 7.8 * (double)countCharacters(label->words) + 4, height = 17;
     LabelBox best = {0};
     bool found = false;
     for (int pass = 0; pass < 2 && !found; pass++) {
@@ -55,7 +55,9 @@ static void placeLabel(LabelBoard *board, const Label *label, Text *text)
             if (!label->mustBeThere && distances[d] > 30)
                 break; /* farther off nobody would know what it belongs to */
             for (int way = 0; way < 8 && !found; way++) {
-                double dx = d > 0 ? ways[way][0] : 0, dy = d > 0 ? ways[way][1] : 0;
+                /* What is best on its point goes straight up or down before it goes aside. */
+                const double *to = ways[label->isCentred && !label->mustBeThere ? (way + 4) % 8 : way];
+                double dx = d > 0 ? to[0] : 0, dy = d > 0 ? to[1] : 0;
                 double centerX = label->at.x + dx * distances[d] +
                                  (dx > 0.1    ? width / 2
                                   : dx < -0.1 ? -width / 2
@@ -77,7 +79,7 @@ static void placeLabel(LabelBoard *board, const Label *label, Text *text)
         board->taken[board->takenCount++] = best;
     textAppend(text, "<text");
     appendAttribute(text, "x", best.x + best.width / 2);
-    appendAttribute(text, "y", best.y + 12.5);
+    appendAttribute(text, "y", best.y + 13.5);
     textAppendFormat(text, " fill=\"%s\">", label->color);
     appendEscaped(text, label->words);
     textAppend(text, "</text>\n");

@@ -159,6 +159,9 @@ assert page.tagName == "svg" and page.getAttribute("role") == "img"
 assert "s & <t>.yaml" in page.getElementsByTagName("title")[0].firstChild.data
 assert "blocked by the sphere of line 7" in page.getElementsByTagName("desc")[0].firstChild.data
 assert len(page.getElementsByTagName("circle")) >= 4
+width, height = map(float, page.getAttribute("viewBox").split()[2:])
+assert width <= 720 and all(0 < float(t.getAttribute("x")) < width and 0 < float(t.getAttribute("y")) < height - 8
+                            for t in page.getElementsByTagName("text")), "words outside, or smaller than a page's"
 assert "http" not in page.toxml().replace("http://www.w3.org/2000/svg", "")
 END
 }
