@@ -172,6 +172,9 @@ makeChapter() { # NAME
         [ "$1" != index ] || contents=()
         runPandoc page "$NOTES/$language/$1.md" $leads --standalone --wrap none --mathml ${contents[@]+"${contents[@]}"} --template "$tools/template.html" \
             --include-in-header "$out/head.html" --include-after-body "$out/foot.html" --output "$out/$language/$1.html"
+        # A sign is not a difference: pandoc marks no minus as a prefix, and browsers put spaces on both its sides.
+        [ ! -f "$out/$language/$1.html" ] ||
+            sed -i -E 's/(<mo[^>]*form="prefix"[^>]*>[^<]*<\/mo>|<mo>[=,<]<\/mo>)<mo>−<\/mo>/\1<mo form="prefix">−<\/mo>/g' "$out/$language/$1.html"
         leads=no
     done
 }

@@ -91,6 +91,11 @@ return {
         if contains(block.classes, class) then complain('a block .%s needs the class .run too', class) end
       end
     end,
+    -- An option is one word.
+    Code = function(code)
+      if code.text:match '^%-' and #code.text <= 24 then code.classes:insert 'option' end
+      return code
+    end,
     Div = div,
     Span = function(span) if contains(span.classes, 'value') then return values.valueSpan(span), false end end,
     Image = function() complain('a picture is shown with the directive .picture, not with ![]()') end,

@@ -56,7 +56,7 @@ local function plotDiv(div)
   local function extend(which, value) which[1], which[2] = math.min(which[1], value), math.max(which[2], value) end
   for s, column in ipairs(names) do
     series[s] = {}
-    local own = { math.huge, -math.huge }
+    local least = math.huge
     for i = 2, #rows do
       local cells = { rows[i][columns[a.x]], rows[i][columns[column]] }
       local x, y = tonumber(cells[1]), tonumber(cells[2])
@@ -68,19 +68,22 @@ local function plotDiv(div)
       end
       if x and y and (not xlog or x > 0) and (not ylog or y > 0) then
         series[s][#series[s] + 1] = { x, y }
-        extend(range.x, x) extend(range.y, y) extend(own, y)
+        extend(range.x, x) extend(range.y, y)
+        least = math.min(least, y)
       else series[s][#series[s] + 1] = false end
     end
-    if own[1] > own[2] then complain('%s: nothing of column %s can be drawn', a.csv, column) return {} end
-    if a.volatile ~= 'true' then
-      record('plot', a.csv, column .. ' least', ('%.4g'):format(own[1]))
-      record('plot', a.csv, column .. ' most', ('%.4g'):format(own[2]))
-    end
+    if least == math.huge then complain('%s: nothing of column %s can be drawn', a.csv, column) return {} end
+  end
+  -- Every point is recorded, not only the ends of a line: it may change between them.
+  for i = 1, a.volatile == 'true' and 0 or #rows - 1 do
+    local drawn = { ('%.4g'):format(tonumber(rows[i + 1][columns[a.x]]) or 0 / 0) }
+    for s = 1, #names do drawn[s + 1] = series[s][i] and ('%.4g'):format(series[s][i][2]) or '-' end
+    record('plot', a.csv, a.y .. ' ' .. i, table.concat(drawn, ' '))
   end
 
   -- Draw the grid, then the lines: each has its colour, its dashes and its marks.
   local xAxis, yAxis = makeAxis(range.x[1], range.x[2], xlog), makeAxis(range.y[1], range.y[2], ylog, true)
-  local left, right, top, bottom = 62, 708, 14, 318
+  local left, right, top, bottom = 78, 708, 14, 318
   local px = function(value) return left + (right - left) * xAxis.place(value) end
   local py = function(value) return bottom - (bottom - top) * yAxis.place(value) end
   local out = {}

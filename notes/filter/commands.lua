@@ -26,6 +26,19 @@ local function commandBox(text, label)
     :format(label, escape(text), words.copy)
 end
 
+-- Commands as a page shows them: a line breaks between words only, since who types "--" and then "width" gets
+-- another command. Only a word that is longer than a line breaks.
+local function commandCode(text)
+  local shown = {}
+  for i, line in ipairs(lines(text)) do
+    local said = escape(line):gsub('%S+', function(word)
+      return ('<span class="word%s">%s</span>'):format(word:match '^%-' and ' at' or '', word)
+    end)
+    shown[i] = ('<span%s>%s</span>'):format(line:match '^%s*#' and ' class="co"' or '', said)
+  end
+  return html('<div class="sourceCode"><pre class="sourceCode sh"><code class="sourceCode sh">' .. table.concat(shown, '\n') .. '</code></pre></div>')
+end
+
 local function runBlock(block)
   local attributes = block.attributes
   if not checkAttributes('run', attributes) then return {} end
@@ -48,7 +61,7 @@ local function runBlock(block)
     return true
   end)
   local made = { html '<div class="run">', html('<button type="button" class="copy js-only">' .. words.copy .. '</button>'),
-    pandoc.CodeBlock(block.text, pandoc.Attr('', { 'sh' })) }
+    commandCode(block.text) }
   if shows and folder then
     local output = readFile(folder .. '/output')
     if output:match '^%s*$' then complain('the commands `%s` print nothing; leave the class .output away', commands[1]) end

@@ -10,12 +10,16 @@ local step = require('filter.steps').step
 local commandBox = require('filter.commands').commandBox
 local pictures = require 'filter.pictures'
 local env, language, work, words = page.env, page.language, page.work, page.words
-local readFile, quote, escape, lines, split, tail = text.readFile, text.quote, text.escape, text.lines, text.split, text.tail
+local readFile, writeFile, quote, escape, lines, split, tail = text.readFile, text.writeFile, text.quote, text.escape, text.lines, text.split, text.tail
 local localize, formatNumber, formatShare, record = numbers.localize, numbers.formatNumber, numbers.formatShare, numbers.record
 local keepPicture, pictureTag, figure = pictures.keepPicture, pictures.pictureTag, pictures.figure
+local translateDrawing = require 'filter.drawing_words'
 
 -- Two pictures with a slider between them, their difference, and numbers: label, value and perhaps a mark.
-local function slider(first, second, firstLabel, secondLabel, difference, alt, facts)
+-- Of the picture of the difference the part below, its scale, is cut off: the page has one with words that can be
+-- read, from 0 to most, in the colours of compare/colormap.c.
+local function slider(first, second, firstLabel, secondLabel, difference, alt, facts, most)
+  local width, height = string.unpack('>I4I4', readFile(first), 17)
   local cells = {}
   for i, fact in ipairs(facts) do
     cells[i] = ('<div><dt>%s</dt><dd>%s</dd></div>'):format(fact[1], fact[2])
@@ -28,8 +32,10 @@ local function slider(first, second, firstLabel, secondLabel, difference, alt, f
     '</div>',
     ('<label class="slide js-only"><span class="hidden">%s</span><input type="range" min="0" max="100" value="50"></label></div>')
       :format(escape(words.slider:format(firstLabel, secondLabel))),
-    ('<div class="map">%s<span class="label">%s</span></div>'):format(pictureTag(difference, words.differenceAlt:format(facts[1][2]:gsub('<.->', ''))), words.difference),
-    '</div><dl class="facts">', table.concat(cells), '</dl>',
+    ('<div class="mapped%s"><div class="map" style="aspect-ratio: %d / %d">%s<span class="label">%s</span></div>'):format(most == 0 and ' same' or '', width, height,
+      pictureTag(difference, words.differenceAlt:format(facts[1][2]:gsub('<.->', ''))), words.difference),
+    most > 0 and ('<p class="scale">0<span class="colours"></span>%s</p>'):format((formatNumber(most, 2))) or '<p class="scale">' .. words.equal .. '</p>',
+    '</div></div><dl class="facts">', table.concat(cells), '</dl>',
   }
 end
 
@@ -81,7 +87,7 @@ local function pairDiv(div)
   local facts = factsOf(result, 65535, 'pair', command, true)
   local verdict = result.pass and 'agree' or 'differ'
   facts[1][2] = facts[1][2] .. (' <span class="mark %s" role="img" aria-label="%s" title="%s"></span>'):format(verdict, words[verdict], words[verdict])
-  return figure('compared', slider(folder .. '/ours.png', folder .. '/povray.png', 'Éclairage', 'POV-Ray', folder .. '/difference.png', alt, facts),
+  return figure('compared', slider(folder .. '/ours.png', folder .. '/povray.png', 'Éclairage', 'POV-Ray', folder .. '/difference.png', alt, facts, result.max),
     div, commandBox(command, words.command))
 end
 
@@ -104,7 +110,7 @@ local function sliderDiv(div)
   local c = {}
   for i, cell in ipairs(split(lines(readFile(folder .. '/tsv'))[1], '\t')) do c[i] = tonumber(cell) end
   local facts = factsOf({ max = c[1], rmse = c[2], flip = c[3], identical = c[4], pixels = c[5] }, c[6], 'slider', command, a.volatile ~= 'true')
-  return figure('compared', slider(folder .. '/a.png', folder .. '/b.png', a['a-label'], a['b-label'], folder .. '/difference.png', a.alt, facts),
+  return figure('compared', slider(folder .. '/a.png', folder .. '/b.png', a['a-label'], a['b-label'], folder .. '/difference.png', a.alt, facts, c[1]),
     div, commandBox(command, words.command))
 end
 
@@ -112,7 +118,15 @@ local function pictureDiv(div)
   local file = div.attributes.file
   local folder = step('picture ' .. file, function(folder) return keepPicture(work .. '/' .. file, file, folder .. '/picture') end)
   if not folder then return {} end
-  return figure('picture', '<div class="frame">' .. pictureTag(folder .. '/picture', div.attributes.alt) .. '</div>', div)
+  local path, frame = folder .. '/picture', '<div class="frame">'
+  if file:match '%.svg$' then
+    -- A drawing has words, in the page's language; it is not made smaller than they can be read.
+    path, frame = path .. '.' .. language, '<div class="frame drawing scroll" tabindex="0">'
+    writeFile(path, translateDrawing(readFile(folder .. '/picture'), language, function(said)
+      complain('the drawing %s says "%s", for which notes/filter/drawing_words.lua has no %s words of about that length', file, said, language)
+    end))
+  end
+  return figure('picture', frame .. pictureTag(path, div.attributes.alt) .. '</div>', div)
 end
 
 return { pairDiv = pairDiv, sliderDiv = sliderDiv, pictureDiv = pictureDiv }

@@ -7,7 +7,7 @@ local language = env 'LANGUAGE'
 local words = ({
   en = {
     exercise = 'Exercise', answer = 'Answer', difference = 'Difference', command = 'Compare them yourself',
-    largest = 'Largest difference', flip = 'FLIP', rmse = 'RMSE', identical = 'Identical pixels',
+    largest = 'Largest difference', flip = 'FLIP', rmse = 'RMSE', identical = 'Identical pixels', equal = 'no pixel differs',
     agree = 'within the scene’s limits', differ = 'beyond the scene’s limits', slider = 'Slider between %s and %s',
     differenceAlt = 'Where the two differ, in false colours; the largest difference is %s.',
     copy = 'Copy', copied = 'Copied', output = 'prints', line = 'line', contents = 'On this page', chapters = 'Chapters',
@@ -17,7 +17,7 @@ local words = ({
   },
   fr = {
     exercise = 'Exercice', answer = 'Réponse', difference = 'Différence', command = 'Comparez vous-même',
-    largest = 'Plus grande différence', flip = 'FLIP', rmse = 'RMSE', identical = 'Pixels identiques',
+    largest = 'Plus grande différence', flip = 'FLIP', rmse = 'RMSE', identical = 'Pixels identiques', equal = 'aucun pixel ne diffère',
     agree = 'dans les limites de la scène', differ = 'hors des limites de la scène', slider = 'Curseur entre %s et %s',
     differenceAlt = 'Là où les deux diffèrent, en fausses couleurs\u{202F}; la plus grande différence est %s.',
     copy = 'Copier', copied = 'Copié', output = 'affiche', line = 'ligne', contents = 'Sur cette page', chapters = 'Chapitres',

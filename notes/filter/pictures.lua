@@ -28,7 +28,10 @@ local function pictureTag(path, alt)
   local encoded = pipe:read 'a'
   pipe:close()
   local kind, size = 'svg+xml', ''
-  if data:sub(2, 4) == 'PNG' then
+  if data:sub(2, 4) ~= 'PNG' then
+    local width, height = data:match ' width="(%d+)" height="(%d+)"'
+    size = width and (' width="%s" height="%s"'):format(width, height) or ''
+  else
     kind, size = 'png', (' width="%d" height="%d"'):format(string.unpack('>I4I4', data, 17))
   end
   return ('<img alt="%s"%s src="data:image/%s;base64,%s">'):format(escape(alt), size, kind, encoded)

@@ -20,13 +20,14 @@ local function tableDiv(div)
     for column, cell in ipairs(row) do
       local class = isNumber[column] and ' class="number"' or ''
       local shown = escape(cell)
+      if i == 1 then shown = shown:gsub('_', '_<wbr>') end
       if i > 1 and isNumber[column] and language == 'fr' then shown = shown:gsub('%.', ',') end
       cells[column] = i == 1 and ('<th scope="col"%s>%s</th>'):format(class, shown) or ('<td%s>%s</td>'):format(class, shown)
     end
     out[i] = '<tr>' .. table.concat(cells) .. '</tr>'
     if i > 1 and div.attributes.volatile ~= 'true' then record('table', file, tostring(i - 1), table.concat(row, ' ')) end
   end
-  return figure('table', '<div class="scroll" tabindex="0"><table><thead>' .. out[1] .. '</thead><tbody>' .. table.concat(out, '', 2) .. '</tbody></table></div>', div)
+  return figure('table', '<div class="scroll" tabindex="0"><table' .. (#rows[1] > 6 and ' class="many"' or '') .. '><thead>' .. out[1] .. '</thead><tbody>' .. table.concat(out, '', 2) .. '</tbody></table></div>', div)
 end
 
 return { tableDiv = tableDiv }

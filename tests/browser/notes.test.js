@@ -72,6 +72,16 @@ async function testPage(file, name) {
     }));
     same(found, { formulas: 0, pictures: 0, silent: 0, nameless: 0 }, 'without');
   });
+  await test(`${name}: on a telephone commands are whole, and the words of a drawing can be read`, async () => {
+    await page.setViewportSize({ width: 360, height: 740 });
+    await page.evaluate(() => document.querySelectorAll('.answer').forEach((answer) => { answer.open = true; }));
+    const found = await page.evaluate(() => ({
+      cut: [...document.querySelectorAll('.run pre.sh')].filter((pre) => pre.scrollWidth > pre.clientWidth + 1).map((pre) => pre.textContent),
+      torn: [...document.querySelectorAll('.run .word')].filter((word) => word.textContent.length < 32 && word.getBoundingClientRect().height > 30).map((word) => word.textContent),
+      small: [...document.querySelectorAll('.drawing img')].filter((drawing) => drawing.getBoundingClientRect().width < 0.8 * drawing.naturalWidth).length,
+    }));
+    same(found, { cut: [], torn: [], small: 0 }, 'found');
+  });
   await test(`${name}: it says nothing on the console and asks for nothing`, async () => same(page.complaints, [], 'complaints'));
   await page.context().close();
 }

@@ -41,12 +41,13 @@ checkSite() {
     pages=("$site"/index.html "$site"/en/*.html)
     [ ! -d "$site/fr" ] || pages+=("$site"/fr/*.html)
     # Every picture, chart, listing and formula, in order; the build itself holds the directives against each other.
+    # Drawings have words in them, in the language of the page.
     if [ -d notes/fr ]; then
         for page in "$site"/en/*.html "$site"/fr/*.html; do
             [ -f "$site/en/${page##*/}" ] && [ -f "$site/fr/${page##*/}" ] || echo "${page##*/} is in one language only"
             for language in en fr; do
                 grep -oE '<(figure|table|math|section|details) [^>]*class="[a-z ]*"|<div class="(listing|run)|data:image/[^"]*' \
-                    "$site/$language/${page##*/}" 2>&1 | sed 's/aria-label="[^"]*"//' | while read -r line; do echo "$line" | cksum; done >"$folder/$language"
+                    "$site/$language/${page##*/}" 2>&1 | sed -e 's/aria-label="[^"]*"//' -e 's/svg+xml.*/svg+xml/' | while read -r line; do echo "$line" | cksum; done >"$folder/$language"
             done
             cmp -s "$folder/en" "$folder/fr" || echo "${page##*/}"
         done | report "each page has a French one with the same figures"
@@ -58,6 +59,16 @@ checkSite() {
     # The small pictures in the list of chapters only adorn: their alt is empty.
     grep -oE '<img [^>]{0,100}' "${pages[@]}" | grep -v -e '<img alt="[^"]' -e '/index.html:<img alt=""' |
         report "every picture has an alternative text"
+    # French has its spaces: before : a no-break one, before ; ! ? % a narrow one, inside guillemets one that does not
+    # break. Commands, formulas and code are another language; so are the titles in English of the sources.
+    for file in notes/fr/*.md; do
+        [ -f "$file" ] || continue
+        # Backquotes and dollars are Markdown's.
+        # shellcheck disable=SC2016
+        awk '/^```/ { inside = !inside } !inside && !/^- [A-Z]/ && !/^:::/ && !/^title:|^summary:/' "$file" |
+            sed -E 's/`[^`]*`//g; s/\{\.[^}]*\}//g; s/\$\$?[^$]*\$\$?//g; s/\]\([^)]*\)//g' |
+            grep -nE "[ [:alnum:]][;!?%»]|[ [:alnum:]]:( |$)|« |[[:alpha:]]'[[:alpha:]]" | sed "s|^|$file: |"
+    done | report "French texts have the spaces and apostrophes of French"
     for page in "${pages[@]}"; do
         sed 's/src="data:[^"]*"//g' "$page" | grep -oE '\bhref="[^"]*"' | sed 's/^href="//; s/"$//' | sort -u | while read -r target; do
             case $target in https://* | http://* | data:,) continue ;; esac
@@ -196,6 +207,20 @@ said=$(NOTES=$folder/good notes/make-notes.sh "$folder/out" 2>&1)
 code=$?
 { { [ $code = 2 ] && [[ $said == *'fr/01-one.md: its directives'* || $said == *'fr/01-one.md: it has'* ]]; } || echo "exit code $code: $said"; } |
     report "a chapter that has other directives in French is told"
+for language in en fr; do
+    chapter good $language/01-one <<'END'
+```{.sh .run}
+echo '<svg width="9" height="9"><text x="1">camera</text><text x="2">no such words</text></svg>' >a.svg
+```
+
+::: {.picture file="a.svg" alt="some words"}
+:::
+END
+done
+said=$(NOTES=$folder/good notes/make-notes.sh "$folder/out" 2>&1)
+code=$?
+{ { [ $code = 2 ] && [[ $said == *'fr/01-one.md: the drawing a.svg says "no such words", for which'* && $said != *'"camera"'* && $said != *en/01-one.md* ]]; } ||
+    echo "exit code $code: $said"; } | report "words in a drawing that have no French are told"
 rm "$folder/good/fr/01-one.md"
 NOTES=$folder/good notes/make-notes.sh "$folder/out" >/dev/null 2>&1
 { grep -q 'href="../fr/index.html"' "$folder/out/en/01-one.html" && [ ! -f "$folder/out/fr/01-one.html" ] || echo "it leads elsewhere"; } |
