@@ -1,24 +1,33 @@
 /* pattern.c - a diffuse colour that depends on the point; see pattern.h. */
 #include "patterns/pattern.h"
 
+/* The whole number below x. A floor or the face of a box often lies in the very plane where a pattern
+ * changes, and rounding alone would scatter its points to both sides: what is this near to the next number
+ * counts as that, as in POV-Ray. */
+static double wholePart(double x)
+{
+    const double nearby = 1e-10;
+    return floor(x + nearby);
+}
+
 /* The part behind the point, in 0..1, of negative numbers too. */
 static double fraction(double x)
 {
-    return x - floor(x);
+    return fmax(x - wholePart(x), 0);
 }
 
 /* a where floor(x) + floor(y) + floor(z) is even. */
 static Color3f checkerColor(const Pattern *pattern, Vector3D p)
 {
-    double sum = floor(p.x) + floor(p.y) + floor(p.z);
+    double sum = wholePart(p.x) + wholePart(p.y) + wholePart(p.z);
     return pattern->colors[fmod(sum, 2) != 0];
 }
 
 /* The texel at (u, v), which repeats outside 0..1. */
 static Color3f texel(const Pattern *pattern, double u, double v)
 {
-    int column = (int)(fraction(u) * pattern->width);
-    int row = (int)(fraction(v) * pattern->height);
+    int column = (int)wholePart(fraction(u) * pattern->width);
+    int row = (int)wholePart(fraction(v) * pattern->height);
     column = column < pattern->width ? column : pattern->width - 1;
     row = row < pattern->height ? row : pattern->height - 1;
     return pattern->texels[(size_t)(pattern->height - 1 - row) * (size_t)pattern->width + (size_t)column];
@@ -44,7 +53,7 @@ Color3f patternColor(const Pattern *pattern, Vector3D point)
     case PATTERN_CHECKER:
         return checkerColor(pattern, point);
     case PATTERN_STRIPES:
-        return pattern->colors[fraction(along) >= 0.5];
+        return pattern->colors[wholePart(2 * fraction(along)) != 0];
     case PATTERN_GRADIENT:
         return mixColors(pattern->colors[0], pattern->colors[1], fraction(along));
     default:

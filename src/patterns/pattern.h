@@ -2,7 +2,9 @@
  *
  * A pattern is asked for the colour at a point of the object's own space: the coordinates in which the
  * object's keys are written, before its transform and its groups'. First the point is taken back through
- * the pattern's own transform, then divided by size. Ownership: a Scene owns its patterns.
+ * the pattern's own transform, then divided by size. Where the colour changes, what lies within 1e-10 before
+ * the change counts as behind it: a surface in that very plane has one colour. Ownership: a Scene owns its
+ * patterns.
  */
 #ifndef ECLAIRAGE_PATTERNS_PATTERN_H
 #define ECLAIRAGE_PATTERNS_PATTERN_H
