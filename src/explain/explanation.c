@@ -5,9 +5,9 @@
 
 /* ORDER Cause */
 static const char *const CAUSE_NAMES[CAUSE_COUNT] = {
-    "gamma",          "exposure", "mirrored", "flipped", "channels",     "shift",
-    "aspect",         "shadow",   "falloff",  "blinn",   "shininess",    "specular",
-    "negative_light", "normals",  "ambient",  "acne",    "quantisation", "unknown",
+    "gamma",   "exposure", "mirrored",     "flipped",       "channels", "shift",          "aspect",
+    "shadow",  "falloff",  "blinn",        "shininess",     "specular", "negative_light", "normals",
+    "ambient", "acne",     "quantisation", "another scene", "unknown",
 };
 
 const char *causeName(Cause cause)
@@ -45,7 +45,8 @@ void writeExplanationsJson(const Explanations *explanations, Text *text)
     for (size_t i = 0; i < explanations->count; i++) {
         const Explanation *item = &explanations->items[i];
         jsonObject(&json);
-        jsonKeyString(&json, "cause", causeName(item->cause));
+        /* The words of JSON are fixed, and have none for another scene. */
+        jsonKeyString(&json, "cause", causeName(item->cause == CAUSE_SCENE ? CAUSE_UNKNOWN : item->cause));
         jsonKeyNumber(&json, "residual", item->residual);
         jsonKeyString(&json, "text", textString(&item->text));
         jsonKeyString(&json, "where", textString(&item->where));

@@ -27,11 +27,12 @@ typedef enum Cause {
     CAUSE_AMBIENT,        /* light added everywhere */
     CAUSE_ACNE,           /* surfaces that shadow themselves */
     CAUSE_QUANTISATION,   /* too few levels */
+    CAUSE_SCENE,          /* an object, a material or a lamp is another one; "unknown" in JSON */
     CAUSE_UNKNOWN,        /* none of these */
     CAUSE_COUNT
 } Cause;
 
-/* The cause's name in JSON: "gamma", ..., "unknown". */
+/* The cause's name: "gamma", ..., "another scene", "unknown". */
 const char *causeName(Cause cause);
 
 typedef struct Explanation {

@@ -376,20 +376,20 @@ static Cause causeOf(const PartChange *change, const Scene *scene)
         const Material *found = &change->material, *old = change->ofMaterial;
         Material otherwise = *found;
         otherwise.specular = old->specular;
-        return sameMaterial(&otherwise, old) ? CAUSE_SPECULAR : CAUSE_UNKNOWN;
+        return sameMaterial(&otherwise, old) ? CAUSE_SPECULAR : CAUSE_SCENE;
     }
     case PART_LAMP: {
         const Light *asked = &scene->lights[change->number];
         if (change->lamp.falloff != asked->falloff)
             return CAUSE_FALLOFF;
         if (isMoved(&change->lamp, asked))
-            return CAUSE_UNKNOWN;
+            return CAUSE_SCENE;
         return colorIsBlack(change->lamp.color) || isMultiple(change->lamp.color, asked->color, &k)
                    ? CAUSE_EXPOSURE
-                   : CAUSE_UNKNOWN;
+                   : CAUSE_SCENE;
     }
     default:
-        return CAUSE_UNKNOWN;
+        return CAUSE_SCENE;
     }
 }
 

@@ -32,6 +32,7 @@ static const char *const CAUSE_WORDS[CAUSE_COUNT] = {
     "light added everywhere",
     "shadow acne",
     "too few levels",
+    "an object, a material or a lamp that is another one",
     "none that is known here",
 };
 

@@ -87,8 +87,6 @@ END
     sed 's/radius: 1.5/radius: 0.9/; s/center: \[0, 0, -5\]/center: [1.2, 0.9, -5]/; s/\[-3, 1, 1\]/[4, -2, 1]/' \
         s.yaml >other.yaml
     draw other.yaml other.png
-    try 0 explain s.yaml other.png --json
-    causes unknown
     try 0 explain s.yaml other.png
     hasText "$out" "1. unknown: none of the mistakes that are known here fits; "
     hasText "$out" " of the pixels differ, "
@@ -380,9 +378,12 @@ END
     planted unknown 's/radius: 1,/radius: 0.8,/' \
         "it is as if the sphere of line 9 were 0.8 times as large: radius 0.8" 9
 
-    # The page has the same words.
+    # In words it has a name, of which JSON has none.
     try 0 explain part.yaml wrong.png --out page
+    hasText "$out" "1. another scene: it is as if the sphere of line 9 were 0.8 times as large: radius 0.8"
+    hasText "$out" "left after this: "
     hasText page/index.html "were 0.8 times as large: radius 0.8"
+    hasText page/index.html "The difference has one cause: an object, a material or a lamp that is another one."
 }
 
 @test "where nothing fits, the objects that differ are named" {

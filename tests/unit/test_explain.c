@@ -735,6 +735,7 @@ static void testExplanations(void **state)
     assert_int_equal(causes.count, 0);
     assert_string_equal(causeName(CAUSE_GAMMA), "gamma");
     assert_string_equal(causeName(CAUSE_ACNE), "acne");
+    assert_string_equal(causeName(CAUSE_SCENE), "another scene");
     assert_string_equal(causeName(CAUSE_UNKNOWN), "unknown");
 }
 

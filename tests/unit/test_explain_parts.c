@@ -159,7 +159,7 @@ static void nothingMirrored(Scene *scene)
 static void testObjects(void **state)
 {
     (void)state;
-    assertTold(removeRight, CAUSE_UNKNOWN, "it is as if the sphere of line 11 were not there",
+    assertTold(removeRight, CAUSE_SCENE, "it is as if the sphere of line 11 were not there",
                "scene.yaml:11: ");
     assertTold(shadowlessLeft, CAUSE_SHADOW,
                "the sphere of line 10 throws no shadow; those of the other objects are right",
@@ -179,7 +179,7 @@ static void testObjects(void **state)
         "the highlight is Blinn's, (N.H)^shininess, where the scene asks for Phong's, (R.V)^shininess, "
         "on the sphere of line 10",
         "scene.yaml:10: Ispec");
-    assertTold(nothingMirrored, CAUSE_UNKNOWN, "it is as if nothing were mirrored in the box of line 13",
+    assertTold(nothingMirrored, CAUSE_SCENE, "it is as if nothing were mirrored in the box of line 13",
                "scene.yaml:13: ");
 }
 
@@ -254,7 +254,7 @@ static void otherBackground(Scene *scene)
 static void testColors(void **state)
 {
     (void)state;
-    assertTold(otherDiffuseOfShiny, CAUSE_UNKNOWN,
+    assertTold(otherDiffuseOfShiny, CAUSE_SCENE,
                "it is as if the sphere of line 10 and the other object of its material had diffuse about "
                "[0.2, 0.3, 0.9] where the scene says [0.8, 0.3, 0.1]",
                "scene.yaml:10: diffuse in ");
@@ -262,23 +262,23 @@ static void testColors(void **state)
                "it is as if the sphere of line 12 had specular about [0.9, 0.2, 0.4] where the scene says "
                "[0.4, 0.4, 0.4]",
                "scene.yaml:12: specular in ");
-    assertTold(glowingFar, CAUSE_UNKNOWN,
+    assertTold(glowingFar, CAUSE_SCENE,
                "it is as if the sphere of line 12 had a light of its own, ambient and emission, of about [0, "
                "0.2, 0.1] where the scene says [0, 0, 0]",
                "scene.yaml:12: color = ambient");
-    assertTold(bluerLamp, CAUSE_UNKNOWN,
+    assertTold(bluerLamp, CAUSE_SCENE,
                "light 2 (line 7) has about the color [2, 9, 20] where the scene says [8, 9, 12]",
                "scene.yaml:7: ");
     assertTold(dimmerLamp, CAUSE_EXPOSURE, "light 1 (line 6) is 0.5 times as bright as it should be",
                "scene.yaml:6: ");
     assertTold(lampOff, CAUSE_EXPOSURE, "light 2 (line 7) is off", "scene.yaml:7: ");
-    assertTold(bothLampsOther, CAUSE_UNKNOWN,
+    assertTold(bothLampsOther, CAUSE_SCENE,
                "light 1 (line 6) has about the color [10, 18, 20] where the scene says [20, 18, 16]; light 2 "
                "(line 7) has about the color [2, 9, 20] where the scene says [8, 9, 12]",
                "scene.yaml:6: ");
     assertTold(evenLamp, CAUSE_FALLOFF,
                "light 2 (line 7) is as strong at any distance: its falloff is missing", "scene.yaml:7: ");
-    assertTold(otherBackground, CAUSE_UNKNOWN,
+    assertTold(otherBackground, CAUSE_SCENE,
                "it is as if the background were about [0.3, 0.3, 0.8] where the scene says [0, 0, 0]",
                "background, which a ray sees");
 }
