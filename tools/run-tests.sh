@@ -26,6 +26,7 @@ unset MAKEFLAGS MAKELEVEL MFLAGS
 unset NO_COLOR CLICOLOR CLICOLOR_FORCE
 
 processors=$(nproc 2>/dev/null || echo 2)
+jobLimit=$((processors + 1)) # one more, since jobs wait for POV-Ray, for Chromium and for the disk
 timeLimit=300 # seconds for one test program
 logs=$BUILD/test-logs
 rm -rf "$logs"
@@ -108,7 +109,7 @@ check() { # LABEL COMMAND...
 build() { # FOLDER TARGET... [VARIABLE=VALUE...]
     local folder=$1 log=$suite/build.log
     shift
-    if ! "$MAKE" --no-print-directory -k -j"$processors" BUILD="$folder" "$@" </dev/null >"$log" 2>&1; then
+    if ! "$MAKE" --no-print-directory -k -j"$jobLimit" BUILD="$folder" "$@" </dev/null >"$log" 2>&1; then
         suiteFailed[$suite]=$((suiteFailed[$suite] + 1))
         grep -v '^  [A-Z]* ' "$log" | sed 's/^/    /' >>"$suite/said"
         say "FAILED: the build in $folder"
@@ -149,7 +150,7 @@ startJob() { # FILES COMMAND...
 runJobs() {
     local job words
     for job in ${queue[@]+"${queue[@]}"}; do
-        while (($(jobs -pr | wc -l) >= processors)); do
+        while (($(jobs -pr | wc -l) >= jobLimit)); do
             wait -n
             tellSuites
         done
