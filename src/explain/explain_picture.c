@@ -444,7 +444,22 @@ static Status drawRight(const CompiledScene *compiled, const Image *like, int th
     return status;
 }
 
-/* Where no mistake that is made for the whole scene fits, or fits well: in which part it is. */
+/* Tell other settings of the picture, if they leave nothing. */
+static Status explainSettings(const Image *picture, const Image *right, const Truth *truth,
+                              const SceneSource *source, Explanations *causes)
+{
+    PartFinding settings;
+    Status status = findSettings(truth, picture, right, &settings);
+    if (!statusIsOk(&status))
+        return status;
+    if (settings.isFound)
+        tellPart(&settings, truth->scene, source, causes);
+    freePartFinding(&settings);
+    return status;
+}
+
+/* Where no mistake that is made for the whole scene fits, or fits well: in which part it is, or what there is
+ * to say without knowing it. */
 static Status explainPart(const Image *picture, const Image *right, const Truth *truth,
                           const SceneSource *source, const Look *look, const Findings *findings,
                           Explanations *causes)
@@ -457,45 +472,50 @@ static Status explainPart(const Image *picture, const Image *right, const Truth 
         tellPart(&part, truth->scene, source, causes);
     else if (findings->count > 0)
         tellFindings(findings, truth->scene, source, NULL, causes);
+    else if (isSpeckled(look))
+        tellAcne(look->rmseButDarker, causes);
     else
+        status = explainButForSpecks(picture, right, look, causes);
+    if (statusIsOk(&status) && causes->count == 0)
         tellOwners(&part.owners, truth->scene, source, tellUnknown(look, true, causes));
     freePartFinding(&part);
     return status;
 }
 
-static Status explainFromScene(const Image *picture, const Image *right, const CompiledScene *compiled,
-                               const Scene *scene, const SceneSource *source, int threads, const Look *look,
-                               Explanations *causes)
+/* Try the mistakes that are made for the whole scene, and then those in a part of it. */
+static Status explainByMistakes(const Image *picture, const Image *right, const Truth *truth,
+                                const SceneSource *source, const Look *look, Explanations *causes)
 {
     Traits *traits = malloc(sizeof *traits);
     if (traits == NULL)
         return statusOutOfMemory();
-    Truth truth;
-    Status status = truthOfScene(compiledFinder(compiled), threads, &truth);
-    if (!statusIsOk(&status)) {
-        free(traits);
-        return status;
-    }
-    listPossibleTraits(scene, picture, right, look, traits);
+    listPossibleTraits(truth->scene, picture, right, look, traits);
     Findings findings;
-    status = searchCauses(&truth, picture, right, NULL, traits, &findings);
+    Status status = searchCauses(truth, picture, right, NULL, traits, &findings);
     /* A picture that was drawn right and changed afterwards has edges and borders that no tracing gives. */
     if (statusIsOk(&status) && findings.count == 0)
         status = searchFrom(picture, right, NULL, look, traits, &findings);
-    if (statusIsOk(&status)) {
-        if (shareLeft(&findings) <= WELL_EXPLAINED)
-            tellFindings(&findings, scene, source, NULL, causes);
-        else if (findings.count == 0 && isSpeckled(look))
-            tellAcne(look->rmseButDarker, causes);
-        else
-            status = findings.count > 0 ? statusOk() : explainButForSpecks(picture, right, look, causes);
-    }
+    if (statusIsOk(&status) && shareLeft(&findings) <= WELL_EXPLAINED)
+        tellFindings(&findings, truth->scene, source, NULL, causes);
+    else if (statusIsOk(&status))
+        status = explainPart(picture, right, truth, source, look, &findings, causes);
+    free(traits);
+    return status;
+}
+
+static Status explainFromScene(const Image *picture, const Image *right, const CompiledScene *compiled,
+                               const SceneSource *source, int threads, const Look *look, Explanations *causes)
+{
+    Truth truth;
+    Status status = truthOfScene(compiledFinder(compiled), threads, &truth);
+    if (!statusIsOk(&status))
+        return status;
+    status = explainSettings(picture, right, &truth, source, causes);
     if (statusIsOk(&status) && causes->count == 0)
-        status = explainPart(picture, right, &truth, source, look, &findings, causes);
+        status = explainByMistakes(picture, right, &truth, source, look, causes);
     if (statusIsOk(&status) && causes->count > 0 && isBlackPicture(picture))
         status = appendBlackReasons(&truth, picture, right, &causes->items[0].text);
     freeTruth(&truth);
-    free(traits);
     return status;
 }
 
@@ -516,8 +536,7 @@ Status explainPictureOfScene(const Image *picture, const Scene *scene, const Sce
         else if (isRounding(&look))
             tellAgreement(&look, &found.summary);
         else
-            status = explainFromScene(picture, &found.right, compiled, scene, source, threads, &look,
-                                      &found.causes);
+            status = explainFromScene(picture, &found.right, compiled, source, threads, &look, &found.causes);
     }
     if (statusIsOk(&status))
         *explanation = found;

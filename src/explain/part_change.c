@@ -156,7 +156,7 @@ static Status predictObjects(const Truth *truth, const Evidence *evidence, const
     return status;
 }
 
-/* ---- Other lamps and another background, with the surfaces that are there ---- */
+/* ---- Other lamps, another background and other settings, with the surfaces that are there ---- */
 
 typedef struct RelitFinder {
     SurfaceFinder finder;
@@ -195,6 +195,8 @@ static Status predictRelit(const Truth *truth, const Evidence *evidence, const P
     relit.lights = variant.lights;
     if (change->kind == PART_BACKGROUND)
         relit.background = change->background;
+    if (change->kind == PART_SETTINGS)
+        relit.render = change->render;
     RelitFinder finder = {.finder = {.scene = &relit, .nearest = findNearest, .lightAlong = findLight},
                           .base = truth->finder};
     Truth changed = *truth;
@@ -210,7 +212,8 @@ static Status predictRelit(const Truth *truth, const Evidence *evidence, const P
 Status predictPart(const Truth *truth, const Evidence *evidence, const PartChange *change,
                    Prediction *prediction)
 {
-    if (change->kind == PART_LAMP || change->kind == PART_ALL_LAMPS || change->kind == PART_BACKGROUND)
+    if (change->kind == PART_LAMP || change->kind == PART_ALL_LAMPS || change->kind == PART_BACKGROUND ||
+        change->kind == PART_SETTINGS)
         return predictRelit(truth, evidence, change, prediction);
     if (change->kind != PART_FORMULA)
         return predictObjects(truth, evidence, change, prediction);

@@ -10,14 +10,15 @@
 #include "explain/predict.h"
 
 typedef enum PartKind {
-    PART_GONE,      /* the object is not there */
-    PART_SHADOW,    /* the object blocks no light, or does where the scene says that it does not */
-    PART_FORMULA,   /* the light of its surface is computed in another way: light */
-    PART_MATERIAL,  /* its material is another one: material */
-    PART_PLACE,     /* the object is moved by offset, and scale times as large about its middle */
-    PART_LAMP,      /* the lamp is another one: lamp */
-    PART_ALL_LAMPS, /* the lamps have other colours: lampColors */
-    PART_BACKGROUND /* the background has other colours: background */
+    PART_GONE,       /* the object is not there */
+    PART_SHADOW,     /* the object blocks no light, or does where the scene says that it does not */
+    PART_FORMULA,    /* the light of its surface is computed in another way: light */
+    PART_MATERIAL,   /* its material is another one: material */
+    PART_PLACE,      /* the object is moved by offset, and scale times as large about its middle */
+    PART_LAMP,       /* the lamp is another one: lamp */
+    PART_ALL_LAMPS,  /* the lamps have other colours: lampColors */
+    PART_BACKGROUND, /* the background has other colours: background */
+    PART_SETTINGS    /* more or fewer samples, or rays in a chain: render */
 } PartKind;
 
 enum {
@@ -36,6 +37,7 @@ typedef struct PartChange {
     Light lamp;
     Color3f lampColors[MOST_LAMPS];
     Background background;
+    RenderSettings render;
 } PartChange;
 
 /* How many objects of the scene have the material, or a part that has it. */

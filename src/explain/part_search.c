@@ -322,7 +322,11 @@ static Status measureFully(const PartSearch *tried, const Evidence *full, PartFi
     return search.status;
 }
 
-Status findPart(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding)
+/* What is tried, of the parts that the differing pixels belong to. */
+typedef void TryParts(PartSearch *search, const DifferenceOwners *owners);
+
+static Status findByTrying(const Truth *truth, const Image *wrong, const Image *right, TryParts *tryThem,
+                           PartFinding *finding)
 {
     size_t cost = predictionCost(truth);
     Evidence evidence = {.count = 0}, many = {.count = 0}, full = {.count = 0};
@@ -344,7 +348,7 @@ Status findPart(const Truth *truth, const Image *wrong, const Image *right, Part
     if (statusIsOk(&status)) {
         ValueChange neutral = neutralValueChange();
         search.before = search.left = measureMisfit(&evidence, &search.right, &neutral, 1, INFINITY).rmse;
-        tryParts(&search, &found.owners);
+        tryThem(&search, &found.owners);
         status = search.status;
     }
     if (statusIsOk(&status) && search.isFound)
@@ -361,6 +365,23 @@ Status findPart(const Truth *truth, const Image *wrong, const Image *right, Part
     else
         freePartFinding(&found);
     return status;
+}
+
+Status findPart(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding)
+{
+    return findByTrying(truth, wrong, right, tryParts, finding);
+}
+
+static void tryOnlySettings(PartSearch *search, const DifferenceOwners *owners)
+{
+    (void)owners;
+    trySettings(search);
+    search->isFound = isPartExact(search);
+}
+
+Status findSettings(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding)
+{
+    return findByTrying(truth, wrong, right, tryOnlySettings, finding);
 }
 
 void freePartFinding(PartFinding *finding)

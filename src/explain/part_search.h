@@ -25,6 +25,9 @@ typedef struct PartFinding {
  * memory runs out, STATUS_INTERRUPTED when cancelled; then *finding is untouched. Freed with
  * freePartFinding; the scene must live as long. */
 Status findPart(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding);
+
+/* The same for other settings of the picture alone, which must leave nothing: soon done. */
+Status findSettings(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding);
 void freePartFinding(PartFinding *finding);
 
 /* For the parts of the search, in files of their own: where it stands. */
@@ -63,6 +66,9 @@ void tryLampColors(PartSearch *search);
 
 /* Try another background. In part_colors.c. */
 void tryBackground(PartSearch *search);
+
+/* Try other numbers of samples and of rays in a chain. In part_settings.c. */
+void trySettings(PartSearch *search);
 
 /* Try each lamp elsewhere. In part_lamp_place.c. */
 void tryLampPlaces(PartSearch *search);

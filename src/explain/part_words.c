@@ -311,6 +311,14 @@ static void tellBackground(const Background *found, const Background *asked, Tex
     tellColor("the top", found->top, asked->top, &isFirst, text);
 }
 
+static void tellSettings(const RenderSettings *found, const RenderSettings *asked, Text *text)
+{
+    bool isSamples = found->samples != asked->samples;
+    textAppendFormat(text, "it is as if %s were %d where the scene has %d",
+                     isSamples ? "samples" : "max_depth", isSamples ? found->samples : found->maxDepth,
+                     isSamples ? asked->samples : asked->maxDepth);
+}
+
 /* ---- The whole of it ---- */
 
 static void tellChange(const PartChange *change, const Scene *scene, const SceneSource *source, Text *text)
@@ -341,6 +349,9 @@ static void tellChange(const PartChange *change, const Scene *scene, const Scene
         break;
     case PART_BACKGROUND:
         tellBackground(&change->background, &scene->background, text);
+        break;
+    case PART_SETTINGS:
+        tellSettings(&change->render, &scene->render, text);
         break;
     case PART_LAMP:
         tellLamp(change, &scene->lights[change->number], source, text);
@@ -394,7 +405,7 @@ static Cause causeOf(const PartChange *change, const Scene *scene)
 }
 
 /* What to look at in the scene, or in the program. */
-static const char *formulaOf(const PartChange *change, Cause cause)
+static const char *formulaOf(const PartChange *change, const Scene *scene, Cause cause)
 {
     switch (change->kind) {
     case PART_GONE:
@@ -403,6 +414,10 @@ static const char *formulaOf(const PartChange *change, Cause cause)
         return "its place and its size";
     case PART_BACKGROUND:
         return "background, which a ray sees that meets no object";
+    case PART_SETTINGS:
+        return change->render.samples != scene->render.samples
+                   ? "render.samples: a pixel is the mean of samples x samples rays"
+                   : "render.max_depth: a ray past it, in mirrors and glass, is black";
     case PART_MATERIAL:
         if (!sameColors(change->material.reflection, change->ofMaterial->reflection))
             return "color = ... + reflection * mirrored";
@@ -447,6 +462,29 @@ static void appendLine(const SceneSource *source, int line, Text *where)
         textAppendFormat(where, "%s:%d: ", source->name, line);
 }
 
+/* Where the key stands, or 0. */
+static int keyLine(const SceneSource *source, const char *key)
+{
+    return source != NULL && source->text != NULL ? findKeyLine(source->text, key) : 0;
+}
+
+/* The line of the scene to look at, or 0. */
+static int lineOf(const PartChange *change, const Scene *scene, const SceneSource *source)
+{
+    switch (change->kind) {
+    case PART_LAMP:
+        return lampLine(source, change->number);
+    case PART_ALL_LAMPS:
+        return lampLine(source, firstChangedLamp(change, scene));
+    case PART_BACKGROUND:
+        return keyLine(source, "background");
+    case PART_SETTINGS:
+        return keyLine(source, "render");
+    default:
+        return partOf(change, scene)->line;
+    }
+}
+
 void tellPart(const PartFinding *finding, const Scene *scene, const SceneSource *source, Explanations *causes)
 {
     const PartChange *change = &finding->change;
@@ -458,13 +496,8 @@ void tellPart(const PartFinding *finding, const Scene *scene, const SceneSource 
         tellChange(&finding->other, scene, source, &told->text);
         textAppend(&told->text, ")");
     }
-    int line = change->kind == PART_LAMP        ? lampLine(source, change->number)
-               : change->kind == PART_ALL_LAMPS ? lampLine(source, firstChangedLamp(change, scene))
-               : change->kind == PART_BACKGROUND
-                   ? (source != NULL && source->text != NULL ? findKeyLine(source->text, "background") : 0)
-                   : partOf(change, scene)->line;
-    appendLine(source, line, &told->where);
-    textAppend(&told->where, formulaOf(change, cause));
+    appendLine(source, lineOf(change, scene, source), &told->where);
+    textAppend(&told->where, formulaOf(change, scene, cause));
 }
 
 /* ---- Where the difference lies ---- */

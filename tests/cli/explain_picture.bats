@@ -386,6 +386,29 @@ END
     hasText page/index.html "The difference has one cause: an object, a material or a lamp that is another one."
 }
 
+@test "other settings of the picture are told at once, and before specks" {
+    makePictures
+    draw s.yaml finer.png --samples 3
+    try 0 explain s.yaml finer.png --json
+    causes unknown
+    json '.causes[0] | .residual == 0 and .text == "it is as if samples were 3 where the scene has 1"'
+    hasText "$out" '"where": "s.yaml:'
+    cat >mirror.yaml <<'END'
+image: {width: 96, height: 72}
+lights: [{point: {position: [-3, 3, 1], color: 30}}]
+objects:
+  - sphere: {center: [-1, 0, -5], radius: 1, material: {transmission: 0.9, ior: 1.4}}
+  - sphere: {center: [1, 0, -5], radius: 1, material: {reflection: 0.8}}
+  - plane: {point: [0, -1, 0], normal: [0, 1, 0]}
+END
+    sed '1irender: {max_depth: 2}' mirror.yaml >shallow.yaml
+    draw shallow.yaml shallow.png
+    try 0 explain mirror.yaml shallow.png
+    hasText "$out" "1. another scene: it is as if max_depth were 2 where the scene has 5"
+    hasText "$out" "   look at: render.max_depth: a ray past it, in mirrors and glass, is black"
+    hasText "$out" "   left after this: 0"
+}
+
 @test "where nothing fits, the objects that differ are named" {
     [ -z "$ECLAIRAGE_SANITIZED" ] || skip "the search is slow here, and the same in the unit tests"
     makePictures
