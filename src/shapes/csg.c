@@ -5,6 +5,10 @@
  * away and, on what is taken away, inside the first (Roth 1982, "Ray casting for modeling solids", section
  * 3, by points in place of intervals, as POV-Ray does). The surface keeps the material of its part: a cut
  * shows that of the cutter.
+ *
+ * Where the surfaces of two parts coincide, rounding would decide whether a point of one is inside the other.
+ * So the space on both sides of the surface is looked at, a little more than rounding away: what matters is
+ * whether a solid is there (Requicha 1980, "Representations for rigid solids", section 4, regularized sets).
  */
 #include "shapes/csg.h"
 
@@ -12,10 +16,14 @@
 
 #include <stdlib.h>
 
-/* Whether the part lets a point of another part's surface be on the surface of the whole. */
-static bool admits(const Csg *csg, size_t part, Vector3D point)
+/* How far from the surface its two sides are looked at, as a share of the numbers that the hit is computed
+ * from; their rounding is some 2^-50. */
+#define SIDE_DISTANCE 0x1p-40
+
+/* Whether the part lets a point of another part, inside or outside of it, be in the whole or on its surface.
+ */
+static bool admits(const Csg *csg, size_t part, bool inside)
 {
-    bool inside = objectContains(&csg->parts[part], point);
     switch (csg->operation) {
     case CSG_GROUP:
         return true;
@@ -26,6 +34,60 @@ static bool admits(const Csg *csg, size_t part, Vector3D point)
     default:
         return part == 0 ? inside : !inside;
     }
+}
+
+/* Whether the part's surface stays where another part's coincides with it; sameSide: the two solids are on
+ * the same side of it. Of surfaces that both stay the first counts, of an intersection the last, as in
+ * POV-Ray. */
+static bool keepsShared(const Csg *csg, size_t part, size_t other, bool sameSide)
+{
+    switch (csg->operation) {
+    case CSG_GROUP:
+        return true;
+    case CSG_UNION: /* a wall between two solids is within the whole */
+        return sameSide && part < other;
+    case CSG_INTERSECTION: /* what two solids share that only touch is flat */
+        return sameSide && part > other;
+    default: /* a cut that ends in the first's surface opens it; one that only touches it leaves it */
+        if (part == 0 || other == 0)
+            return part == 0 && !sameSide;
+        return sameSide && part < other;
+    }
+}
+
+/* From the hit a little towards the middle of the shape that it is on, so that the edge of a face counts as a
+ * place within the face. */
+static Vector3D stepInwards(const Hit *hit, Vector3D position, double distance)
+{
+    Bounds bounds;
+    if (!objectBounds(hit->object, &bounds))
+        return createVector(0, 0, 0);
+    Vector3D inwards = subVectors(multVector(addVectors(bounds.min, bounds.max), 0.5), position);
+    double length = norm(inwards);
+    return multVector(inwards, length > 0 ? distance / length : 0);
+}
+
+/* Whether a hit of a part is on the surface of the whole. */
+static bool isOnWhole(const Object *object, size_t part, const Ray *ray, const Hit *hit)
+{
+    const Csg *csg = &object->csg;
+    Vector3D position = pointOnRay(ray, hit->distance);
+    Vector3D normal = objectFlatNormal(hit, objectNormal(ray, hit, position));
+    double magnitude =
+        fmax(hitMagnitude(hit->object, ray, hit->distance), hitMagnitude(object, ray, hit->distance));
+    Vector3D step = multVector(normal, magnitude * SIDE_DISTANCE);
+    Vector3D middle = addVectors(position, stepInwards(hit, position, magnitude * SIDE_DISTANCE / 8));
+    Vector3D before = addVectors(middle, step), behind = subVectors(middle, step);
+    for (size_t i = 0; i < csg->partCount; i++) {
+        if (i == part)
+            continue;
+        bool inside = objectContains(&csg->parts[i], before);
+        bool isShared = inside != objectContains(&csg->parts[i], behind);
+        if (isShared ? !keepsShared(csg, part, i, inside == objectContains(&csg->parts[part], before))
+                     : !admits(csg, i, inside))
+            return false;
+    }
+    return true;
 }
 
 static void csgIntersect(const Object *object, const Ray *ray, HitSink *sink)
@@ -39,11 +101,7 @@ static void csgIntersect(const Object *object, const Ray *ray, HitSink *sink)
             const Hit *hit = &own.all[h];
             if (!sink->keepAll && !(hit->distance < sink->nearest.distance))
                 continue;
-            Vector3D position = pointOnRay(ray, hit->distance);
-            bool kept = true;
-            for (size_t j = 0; j < csg->partCount && kept; j++)
-                kept = j == i || admits(csg, j, position);
-            if (kept) {
+            if (csg->operation == CSG_GROUP || isOnWhole(object, i, ray, hit)) {
                 sink->current = hit->object;
                 reportHit(sink, hit->distance, hit->part, hit->u, hit->v);
             }
@@ -73,7 +131,7 @@ static bool csgContains(const Object *object, Vector3D point)
         return false;
     }
     for (size_t i = 0; i < csg->partCount; i++)
-        if (!admits(csg, i, point))
+        if (!admits(csg, i, objectContains(&csg->parts[i], point)))
             return false;
     return true;
 }
