@@ -55,14 +55,17 @@ static bool keepsShared(const Csg *csg, size_t part, size_t other, bool sameSide
     }
 }
 
-/* From the hit a little towards the middle of the shape that it is on, so that the edge of a face counts as a
- * place within the face. */
+/* From the hit a little towards a point within the shape that it is on, so that the edge of a face counts as
+ * a place within the face, and a seam between two other parts as a place in one of them: the point is none
+ * that round numbers give. */
 static Vector3D stepInwards(const Hit *hit, Vector3D position, double distance)
 {
     Bounds bounds;
     if (!objectBounds(hit->object, &bounds))
         return createVector(0, 0, 0);
-    Vector3D inwards = subVectors(multVector(addVectors(bounds.min, bounds.max), 0.5), position);
+    Vector3D size = subVectors(bounds.max, bounds.min);
+    Vector3D within = addVectors(bounds.min, createVector(0.37 * size.x, 0.59 * size.y, 0.43 * size.z));
+    Vector3D inwards = subVectors(within, position);
     double length = norm(inwards);
     return multVector(inwards, length > 0 ? distance / length : 0);
 }
@@ -76,7 +79,7 @@ static bool isOnWhole(const Object *object, size_t part, const Ray *ray, const H
     double magnitude =
         fmax(hitMagnitude(hit->object, ray, hit->distance), hitMagnitude(object, ray, hit->distance));
     Vector3D step = multVector(normal, magnitude * SIDE_DISTANCE);
-    Vector3D middle = addVectors(position, stepInwards(hit, position, magnitude * SIDE_DISTANCE / 8));
+    Vector3D middle = addVectors(position, stepInwards(hit, position, magnitude * SIDE_DISTANCE / 4));
     Vector3D before = addVectors(middle, step), behind = subVectors(middle, step);
     for (size_t i = 0; i < csg->partCount; i++) {
         if (i == part)
