@@ -20,6 +20,10 @@
  * from; their rounding is some 2^-50. */
 #define SIDE_DISTANCE 0x1p-40
 
+/* Only where the ray meets another part as near as this do surfaces coincide, as a share of the same numbers;
+ * wide, as rounding moves hits of rays along a surface far. */
+#define NEAR_DISTANCE 0x1p-24
+
 /* Whether the part lets a point of another part, inside or outside of it, be in the whole or on its surface.
  */
 static bool admits(const Csg *csg, size_t part, bool inside)
@@ -70,8 +74,8 @@ static Vector3D stepInwards(const Hit *hit, Vector3D position, double distance)
     return multVector(inwards, length > 0 ? distance / length : 0);
 }
 
-/* Whether a hit of a part is on the surface of the whole. */
-static bool isOnWhole(const Object *object, size_t part, const Ray *ray, const Hit *hit)
+/* Whether a hit of a part is on the surface of the whole, for any surfaces that coincide. */
+static bool isOnWholeBySides(const Object *object, size_t part, const Ray *ray, const Hit *hit)
 {
     const Csg *csg = &object->csg;
     Vector3D position = pointOnRay(ray, hit->distance);
@@ -93,25 +97,90 @@ static bool isOnWhole(const Object *object, size_t part, const Ray *ray, const H
     return true;
 }
 
-static void csgIntersect(const Object *object, const Ray *ray, HitSink *sink)
+/* The same where no other surface is near. */
+static bool isOnWhole(const Csg *csg, size_t part, Vector3D position)
+{
+    for (size_t i = 0; i < csg->partCount; i++)
+        if (i != part && !admits(csg, i, objectContains(&csg->parts[i], position)))
+            return false;
+    return true;
+}
+
+/* Whether the ray meets any other part near the hit. own: the hits of all parts, those of this part from
+ * first up to end. */
+static bool hasHitNear(const HitSink *own, size_t first, size_t end, double distance, double near)
+{
+    for (size_t i = 0; i < own->count; i++)
+        if ((i < first || i >= end) && fabs(own->all[i].distance - distance) <= near)
+            return true;
+    return false;
+}
+
+static double csgMagnitude(const Object *object)
+{
+    double largest = 0;
+    for (size_t i = 0; i < object->csg.partCount; i++) {
+        const Object *part = &object->csg.parts[i];
+        double own = objectShape(part)->magnitude(part);
+        if (part->transform != NULL)
+            own = matrixNorm(&part->transform->worldFromObject) * own +
+                  largestCoordinate(part->transform->worldFromObject.translate);
+        largest = fmax(largest, own);
+    }
+    return largest;
+}
+
+/* Report those of the hits that the other parts let be on the whole. ends: behind the last hit of each part.
+ */
+static void reportHitsOnWhole(const Object *object, const Ray *ray, const HitSink *own, const size_t *ends,
+                              HitSink *sink)
 {
     const Csg *csg = &object->csg;
+    double near = (largestCoordinate(ray->origin) + csgMagnitude(object)) * NEAR_DISTANCE;
     for (size_t i = 0; i < csg->partCount; i++) {
-        /* Find every hit of the part, then keep those that the other parts admit. */
-        HitSink own = createHitSink(0, true);
-        intersectObject(&csg->parts[i], ray, &own);
-        for (size_t h = 0; h < own.count; h++) {
-            const Hit *hit = &own.all[h];
+        size_t first = i == 0 ? 0 : ends[i - 1];
+        for (size_t h = first; h < ends[i]; h++) {
+            const Hit *hit = &own->all[h];
             if (!sink->keepAll && !(hit->distance < sink->nearest.distance))
                 continue;
-            if (csg->operation == CSG_GROUP || isOnWhole(object, i, ray, hit)) {
+            bool isKept = true;
+            if (csg->operation != CSG_GROUP)
+                isKept = hasHitNear(own, first, ends[i], hit->distance, near + hit->distance * NEAR_DISTANCE)
+                             ? isOnWholeBySides(object, i, ray, hit)
+                             : isOnWhole(csg, i, pointOnRay(ray, hit->distance));
+            if (isKept) {
                 sink->current = hit->object;
                 reportHit(sink, hit->distance, hit->part, hit->u, hit->v);
             }
         }
-        sink->outOfMemory |= own.outOfMemory;
-        freeHitSink(&own);
     }
+}
+
+enum {
+    FEW_PARTS = 16 /* for which no memory is asked */
+};
+
+static void csgIntersect(const Object *object, const Ray *ray, HitSink *sink)
+{
+    const Csg *csg = &object->csg;
+    size_t fewEnds[FEW_PARTS];
+    size_t *ends = csg->partCount <= FEW_PARTS ? fewEnds : malloc(csg->partCount * sizeof *ends);
+    if (ends == NULL) {
+        sink->outOfMemory = true;
+        return;
+    }
+    /* Find every hit of every part, then keep those that the other parts admit. */
+    HitSink own = createHitSink(0, true);
+    for (size_t i = 0; i < csg->partCount; i++) {
+        intersectObject(&csg->parts[i], ray, &own);
+        ends[i] = own.count;
+    }
+    if (own.count > 0)
+        reportHitsOnWhole(object, ray, &own, ends, sink);
+    sink->outOfMemory |= own.outOfMemory;
+    freeHitSink(&own);
+    if (ends != fewEnds)
+        free(ends);
     sink->current = object;
 }
 
@@ -174,20 +243,6 @@ static bool csgBounds(const Object *object, Bounds *bounds)
     if (found)
         *bounds = all;
     return found;
-}
-
-static double csgMagnitude(const Object *object)
-{
-    double largest = 0;
-    for (size_t i = 0; i < object->csg.partCount; i++) {
-        const Object *part = &object->csg.parts[i];
-        double own = objectShape(part)->magnitude(part);
-        if (part->transform != NULL)
-            own = matrixNorm(&part->transform->worldFromObject) * own +
-                  largestCoordinate(part->transform->worldFromObject.translate);
-        largest = fmax(largest, own);
-    }
-    return largest;
 }
 
 /* Its parts are whole objects with materials, so the exporter writes them; only the word is here. */
