@@ -7,6 +7,7 @@
  */
 #include "povray/export.h"
 
+#include "povray/pov_faces.h"
 #include "povray/pov_habits.h"
 #include "povray/pov_scale.h"
 #include "povray/pov_texture.h"
@@ -308,17 +309,40 @@ enum {
     MOST_COMPARED = 4096 /* of objects, each with every other */
 };
 
+/* Whether rays begin inside the object, as far as POV-Ray knows. */
+static bool containsCamera(const Export *export, const Object *object)
+{
+    const Camera *camera = &export->scene->camera;
+    return camera->projection == PROJECTION_PERSPECTIVE && objectContains(object, camera->position);
+}
+
+/* Whether surfaces within the union can be seen or be passed: if it is a part of a solid, transparent, or
+ * rays begin in it. If not they may stay, and then a ray along the plane in which two parts touch finds them.
+ */
+static bool showsItsInside(const Export *export, const Object *object, const PovPart *place)
+{
+    return place != NULL || transmissivePart(export->scene, object) != NULL ||
+           export->scene->camera.projection != PROJECTION_PERSPECTIVE || containsCamera(export, object);
+}
+
 /* The shape up to its material. A mesh has an inside in POV-Ray only at the cost of exactness, so only where
  * that matters: as a part of CSG, and as glass round the camera. */
-static void writeShape(const Export *export, const Object *object, bool isPart)
+static void writeShape(const Export *export, const Object *object, const PovPart *place)
 {
     const Scene *scene = export->scene;
-    bool needsInside =
-        isPart || (transmissivePart(scene, object) != NULL && objectContains(object, scene->camera.position));
+    bool needsInside = place != NULL || (transmissivePart(scene, object) != NULL &&
+                                         objectContains(object, scene->camera.position));
     if (object->kind == SHAPE_MESH)
         writeMeshPov(object, export->scale, needsInside, export->pov);
-    else
+    else if (object->kind == SHAPE_CSG && object->csg.operation == CSG_UNION &&
+             !showsItsInside(export, object, place))
+        textAppend(export->pov, "union {");
+    else if (place == NULL || object->kind == SHAPE_CSG)
         objectShape(object)->writePov(object, export->scale, export->pov);
+    else {
+        Object separated = separatedPart(object, place);
+        objectShape(&separated)->writePov(&separated, export->scale, export->pov);
+    }
 }
 
 /* How far from the origin of its own space the object's points can be. An endless one is drawn as far as
@@ -335,15 +359,16 @@ static double ownExtent(const Export *export, const Object *object)
     return extent;
 }
 
-/* An object up to its closing brace; isPart: of CSG. */
-static void writeObject(const Export *export, const Object *object, bool isPart)
+/* An object up to its closing brace; place: where it is a part of CSG, or NULL. */
+static void writeObject(const Export *export, const Object *object, const PovPart *place)
 {
     Text *pov = export->pov;
-    writeShape(export, object, isPart);
+    writeShape(export, object, place);
     textAppend(pov, "\n  ");
     if (object->kind == SHAPE_CSG) {
         for (size_t i = 0; i < object->csg.partCount; i++) {
-            writeObject(export, &object->csg.parts[i], true);
+            PovPart part = {object, i, place};
+            writeObject(export, &object->csg.parts[i], &part);
             textAppend(pov, "\n}\n");
         }
         return;
@@ -399,13 +424,6 @@ static void writeInterior(const Export *export, size_t number)
     textAppend(export->pov, " }");
 }
 
-/* Whether rays begin inside the object, as far as POV-Ray knows. */
-static bool containsCamera(const Export *export, const Object *object)
-{
-    const Camera *camera = &export->scene->camera;
-    return camera->projection == PROJECTION_PERSPECTIVE && objectContains(object, camera->position);
-}
-
 static void writeObjects(const Export *export)
 {
     bool isCameraInGlass = false;
@@ -415,7 +433,7 @@ static void writeObjects(const Export *export)
     }
     for (size_t i = 0; i < export->scene->objectCount; i++) {
         const Object *object = &export->scene->objects[i];
-        writeObject(export, object, false);
+        writeObject(export, object, NULL);
         writeInterior(export, i);
         /* POV-Ray also counts what is opaque among the media that rays begin in, and the last one, in an
          * order of its own, decides how they leave the glass. Of an inverse room the outside is its inside.

@@ -285,6 +285,36 @@ static void finishSolid(LeafWalk *walk, Object *solid)
     walk->solid++;
 }
 
+/* Put the transparent objects behind the others, each in the order of the file: of two surfaces at the same
+ * distance the first one counts, and a block of glass on a floor shows the floor whichever was written first.
+ * Seen the other way the ray would leave the glass on the far side of the floor. */
+static void putTransparentLast(SceneReader *reader)
+{
+    Scene *scene = reader->scene;
+    size_t transparent = 0, inFront = 0; /* inFront: of an opaque one */
+    for (size_t i = 0; i < scene->objectCount; i++) {
+        bool isTransparent = transmissivePart(scene, &scene->objects[i]) != NULL;
+        inFront = isTransparent ? inFront : transparent;
+        transparent += isTransparent;
+    }
+    if (inFront == 0)
+        return;
+    Object *last = malloc(transparent * sizeof *last);
+    if (last == NULL) {
+        reader->outOfMemory = true;
+        return;
+    }
+    size_t opaque = 0, kept = 0;
+    for (size_t i = 0; i < scene->objectCount; i++) {
+        if (transmissivePart(scene, &scene->objects[i]) != NULL)
+            last[kept++] = scene->objects[i];
+        else
+            scene->objects[opaque++] = scene->objects[i];
+    }
+    memcpy(&scene->objects[opaque], last, kept * sizeof *last);
+    free(last);
+}
+
 void finishObjects(SceneReader *reader)
 {
     /* With errors objects were left out, and the scene is of no use. */
@@ -302,4 +332,6 @@ void finishObjects(SceneReader *reader)
         if (object->kind == SHAPE_CSG)
             finishSolid(&walk, object);
     }
+    if (reader->diagnostics->errors == 0 && !reader->interrupted)
+        putTransparentLast(reader);
 }

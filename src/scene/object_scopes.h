@@ -67,8 +67,8 @@ void addInnerObject(struct SceneReader *reader, Place place, Object *object);
 /* In place of addReadObject for an object with an error: its material must be defined all the same. */
 void dropReadObject(struct SceneReader *reader);
 
-/* When all was read: give the leaves the materials they name, and check that what light goes through has one
- * index of refraction in each solid. */
+/* When all was read: give the leaves the materials they name, check that what light goes through has one
+ * index of refraction in each solid, and put transparent objects behind the others. */
 void finishObjects(struct SceneReader *reader);
 
 #endif

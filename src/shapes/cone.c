@@ -117,12 +117,16 @@ static void coneIntersect(const Object *object, const Ray *ray, HitSink *sink)
     if (side.entry > side.exit)
         return;
 
-    /* Find where it is between the two ends. */
+    /* Find where it is between the two ends, which are planes: worked out as those of plane.c, so that a
+     * column on a floor meets the floor's plane where the floor does. */
     double z = dot(p, frame.axis), dz = dot(ray->direction, frame.axis);
-    Interval slab = {-INFINITY, INFINITY};
+    Interval slab = {-INFINITY, INFINITY}, ends = slab;
     if (dz != 0) {
-        double t1 = (-frame.halfHeight - z) / dz, t2 = (frame.halfHeight - z) / dz;
-        slab = (Interval){fmin(t1, t2), fmax(t1, t2)};
+        double start = dot(frame.axis, ray->origin);
+        double t1 = (dot(frame.axis, cone->base) - start) / dz,
+               t2 = (dot(frame.axis, cone->top) - start) / dz;
+        ends = (Interval){fmin(t1, t2), fmax(t1, t2)};
+        slab = (Interval){ends.entry - moved, ends.exit - moved};
     } else if (fabs(z) > frame.halfHeight) {
         return;
     }
@@ -137,8 +141,9 @@ static void coneIntersect(const Object *object, const Ray *ray, HitSink *sink)
     if (fmax(side.entry, slab.entry) > fmin(side.exit, slab.exit))
         return;
     int first = dz > 0 ? PART_BASE : PART_TOP, last = dz > 0 ? PART_TOP : PART_BASE;
-    reportHit(sink, fmax(side.entry, slab.entry) + moved, side.entry >= slab.entry ? PART_SIDE : first, 0, 0);
-    reportHit(sink, fmin(side.exit, slab.exit) + moved, side.exit <= slab.exit ? PART_SIDE : last, 0, 0);
+    bool entersSide = side.entry >= slab.entry, leavesSide = side.exit <= slab.exit;
+    reportHit(sink, entersSide ? side.entry + moved : ends.entry, entersSide ? PART_SIDE : first, 0, 0);
+    reportHit(sink, leavesSide ? side.exit + moved : ends.exit, leavesSide ? PART_SIDE : last, 0, 0);
 }
 
 static Vector3D coneNormal(const Object *object, const Hit *hit, Vector3D position)

@@ -32,13 +32,13 @@ static void everyTermIsRead(void **state)
              "  a: {diffuse: 0.125, specular: 0.25, shininess: 5, ambient: [1, 2, 3], emission: [4, 5, 6],\n"
              "      reflection: [0.1, 0.2, 0.3], transmission: 0.5, ior: 1.5, model: blinn_phong}\n"
              "objects:\n"
-             "  - sphere: {center: [0, 0, -5], radius: 1, material: a}\n"
              "  - sphere: {center: [0, 0, -5], radius: 1, material: {diffuse: 1, model: simple}}\n"
              "  - sphere: {center: [0, 0, -5], radius: 1, material: {model: lambert}}\n"
              "  - sphere: {center: [0, 0, -5], radius: 1, material: {model: phong}}\n"
              "  - sphere: {center: [0, 0, -5], radius: 1, material: {}}\n"
-             "  - sphere: {center: [0, 0, -5], radius: 1}\n");
-    const Material *m = &scene.objects[0].material;
+             "  - sphere: {center: [0, 0, -5], radius: 1}\n"
+             "  - sphere: {center: [0, 0, -5], radius: 1, material: a}\n");
+    const Material *m = &scene.objects[5].material;
     assertColor(m->diffuse, 0.125F, 0.125F, 0.125F);
     assertColor(m->specular, 0.25F, 0.25F, 0.25F);
     assert_true(m->shininess == 5);
@@ -48,14 +48,14 @@ static void everyTermIsRead(void **state)
     assertColor(m->transmission, 0.5F, 0.5F, 0.5F);
     assert_true(m->ior == 1.5F);
     assert_null(m->pattern);
-    static const ShadingModel models[] = {MODEL_BLINN_PHONG, MODEL_SIMPLE,   MODEL_LAMBERT,
-                                          MODEL_PHONG,       MODEL_OF_SCENE, MODEL_OF_SCENE};
+    static const ShadingModel models[] = {MODEL_SIMPLE,   MODEL_LAMBERT,  MODEL_PHONG,
+                                          MODEL_OF_SCENE, MODEL_OF_SCENE, MODEL_BLINN_PHONG};
     for (size_t i = 0; i < 6; i++)
         assert_int_equal(scene.objects[i].material.model, models[i]);
 
     /* What is left out is as in a program's default material. */
     Material fallback = defaultMaterial();
-    for (size_t i = 4; i < 6; i++) {
+    for (size_t i = 3; i < 5; i++) {
         m = &scene.objects[i].material;
         assertColor(m->ambient, fallback.ambient.r, fallback.ambient.g, fallback.ambient.b);
         assertColor(m->emission, 0, 0, 0);
@@ -64,6 +64,37 @@ static void everyTermIsRead(void **state)
         assert_true(m->ior == fallback.ior && m->ior == 1);
         assert_null(m->pattern);
     }
+    freeScene(&scene);
+}
+
+/* Glass comes last, in the order of the file: of two surfaces at the same distance the first counts, and
+ * glass on a floor, here looked at from straight above, shows the floor. */
+static void transparentObjectsComeLast(void **state)
+{
+    (void)state;
+    Scene scene =
+        load("materials:\n"
+             "  glass: {diffuse: 0, transmission: 0.5, ior: 1.5}\n"
+             "objects:\n"
+             "  - cube: {center: [0, 0.5, 0], size: 1, material: glass}\n"
+             "  - cylinder: {base: [5, 0, 0], top: [5, 1, 0], radius: 0.5, material: glass}\n"
+             "  - plane: {point: [0, 0, 0], normal: [0, 1, 0]}\n"
+             "  - difference: {objects: [{sphere: {center: [0, 3, 0], radius: 1, material: glass}},\n"
+             "                           {sphere: {center: [0, 4, 0], radius: 1}}]}\n"
+             "  - cube: {center: [3, 0, 0], size: 1, material: {transmission: 1, model: simple}}\n");
+    static const int lines[] = {6, 9, 4, 5, 7};
+    assert_int_equal(scene.objectCount, 5);
+    for (size_t i = 0; i < 5; i++)
+        assert_int_equal(scene.objects[i].line, lines[i]);
+    for (int x = 0; x <= 5; x += 5)
+        for (int i = 0; i < 100; i++) {
+            Vector3D from = createVector(x + 0.1, 0.7, 0.1),
+                     to = createVector(x - 0.3 + 0.005 * i, 0, 0.003 * i);
+            Vector3D way = subVectors(to, from);
+            Intersection hit;
+            assert_true(throwRayThroughScene(createRay(from, normalize(way)), scene, &hit));
+            assert_true(hit.material.transmission.r == 0);
+        }
     freeScene(&scene);
 }
 
@@ -320,6 +351,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everyTermIsRead),
+        cmocka_unit_test(transparentObjectsComeLast),
         cmocka_unit_test(everyPatternIsRead),
         cmocka_unit_test(picturesBecomeLinearTexels),
         cmocka_unit_test(meshesAreReadOnceAndFoundBesideTheScene),

@@ -3,6 +3,7 @@
 #define _GNU_SOURCE
 #include "base/files.h"
 #include "povray/export.h"
+#include "povray/pov_faces.h"
 #include "povray/pov_scale.h"
 #include "povray/run.h"
 
@@ -152,6 +153,87 @@ static void refusesWhatItCannotSay(void **state)
     assert_int_equal(status.code, STATUS_OK);
     textFree(&pov);
     freeScene(&scene);
+}
+
+static Object block(double minX, double minY, double maxX, double maxY)
+{
+    return (Object){
+        .kind = SHAPE_BOX,
+        .box = createBox(createVector(minX, minY, -1), createVector(maxX, maxY, 1), defaultMaterial())};
+}
+
+static Object column(double bottom, double top, double radius)
+{
+    return (Object){.kind = SHAPE_CONE,
+                    .cone = createCylinder(createVector(0, bottom, 0), createVector(0, top, 0), radius, false,
+                                           defaultMaterial())};
+}
+
+/* The part as it is written; parts: of one solid. */
+static Object written(CsgOperation operation, Object *parts, size_t count, size_t number)
+{
+    Object solid = {.kind = SHAPE_CSG, .csg = {.operation = operation, .parts = parts, .partCount = count}};
+    PovPart place = {&solid, number, NULL};
+    return separatedPart(&parts[number], &place);
+}
+
+/* Whether a was moved from b by a little more than nothing. */
+static bool isAbove(double a, double b)
+{
+    return a > b && a - b < 1e-6;
+}
+
+static void facesThatCoincideAreMovedApart(void **state)
+{
+    (void)state;
+    /* A hole as deep as its block goes through; the block stays as it is. */
+    Object hole[] = {block(-1, 0, 1, 1), column(0, 1, 0.5)};
+    Object part = written(CSG_DIFFERENCE, hole, 2, 1);
+    assert_true(isAbove(part.cone.top.y, 1) && isAbove(0, part.cone.base.y));
+    assert_true(part.cone.topRadius == 0.5 && part.cone.baseRadius == 0.5);
+    part = written(CSG_DIFFERENCE, hole, 2, 0);
+    assert_true(part.box.min.y == 0 && part.box.max.y == 1);
+    /* A blind one opens where it ends in the face, and nowhere else. */
+    Object corner[] = {block(-1, 0, 1, 1), block(0, 0.5, 1, 1)};
+    part = written(CSG_DIFFERENCE, corner, 2, 1);
+    assert_true(isAbove(part.box.max.x, 1) && isAbove(part.box.max.y, 1) && isAbove(part.box.max.z, 1));
+    assert_true(part.box.min.x == 0 && part.box.min.y == 0.5 && isAbove(-1, part.box.min.z));
+    /* One that only touches leaves the block its face; a cube is one too. */
+    Object touching[] = {
+        block(-1, 0, 1, 1),
+        {.kind = SHAPE_CUBE, .cube = createCube(createVector(0, 2, 0), 2, defaultMaterial())}};
+    part = written(CSG_DIFFERENCE, touching, 2, 1);
+    assert_true(part.kind == SHAPE_BOX && isAbove(part.box.min.y, 1) && part.box.max.y == 3);
+    /* Of the same block twice the last stays. */
+    Object twice[] = {block(-1, 0, 1, 1), block(-1, 0, 1, 1)};
+    part = written(CSG_INTERSECTION, twice, 2, 0);
+    assert_true(isAbove(part.box.max.y, 1) && isAbove(-1, part.box.min.x));
+    part = written(CSG_INTERSECTION, twice, 2, 1);
+    assert_true(part.box.max.y == 1 && part.box.min.x == -1);
+    /* What stands on the other goes into it; across it, it is lower. Side by side they are of one height. */
+    Object stacked[] = {block(-1, 0, 1, 1), column(1, 2, 0.5)};
+    part = written(CSG_UNION, stacked, 2, 1);
+    assert_true(isAbove(1, part.cone.base.y) && part.cone.top.y == 2);
+    Object cross[] = {block(-2, 0, 2, 1), block(-1, 0, 1, 1)};
+    cross[1].box.max.z = 2;
+    part = written(CSG_UNION, cross, 2, 1);
+    assert_true(isAbove(1, part.box.max.y) && part.box.max.z == 2);
+    Object row[] = {block(-1, 0, 0, 1), block(0, 0, 1, 1)};
+    part = written(CSG_UNION, row, 2, 1);
+    assert_true(isAbove(0, part.box.min.x) && part.box.max.y == 1 && part.box.max.x == 1);
+    /* Transformed alike, and as a part of a part. */
+    Matrix rotation = rotationMatrix(createVector(1, 2, 3), 30);
+    Transform turned;
+    assert_true(createTransform(&rotation, &turned));
+    hole[0].transform = hole[1].transform = &turned;
+    part = written(CSG_DIFFERENCE, hole, 2, 1);
+    assert_true(isAbove(part.cone.top.y, 1) && isAbove(0, part.cone.base.y));
+    Object holes = {.kind = SHAPE_CSG, .csg = {.operation = CSG_UNION, .parts = &hole[1], .partCount = 1}};
+    Object outer[] = {hole[0], holes};
+    Object solid = {.kind = SHAPE_CSG, .csg = {.operation = CSG_DIFFERENCE, .parts = outer, .partCount = 2}};
+    PovPart outerPlace = {&solid, 1, NULL}, innerPlace = {&outer[1], 0, &outerPlace};
+    part = separatedPart(&hole[1], &innerPlace);
+    assert_true(isAbove(part.cone.top.y, 1) && isAbove(0, part.cone.base.y));
 }
 
 static void sizesThatPovraySeesWell(void **state)
@@ -481,11 +563,17 @@ static void theRealOnesErrorIsQuoted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbersAreWrittenInFull),         cmocka_unit_test(theFirstCommentIsTheCommand),
-        cmocka_unit_test(aNameCannotBecomeCode),           cmocka_unit_test(refusesWhatItCannotSay),
-        cmocka_unit_test(sizesThatPovraySeesWell),         cmocka_unit_test(sizesForTheCamera),
-        cmocka_unit_test(missingPovraySaysHowToInstallIt), cmocka_unit_test(failureAndTimeoutAreTold),
-        cmocka_unit_test(theRealOneDrawsOurPicture),       cmocka_unit_test(theRealOnesErrorIsQuoted),
+        cmocka_unit_test(numbersAreWrittenInFull),
+        cmocka_unit_test(theFirstCommentIsTheCommand),
+        cmocka_unit_test(aNameCannotBecomeCode),
+        cmocka_unit_test(refusesWhatItCannotSay),
+        cmocka_unit_test(facesThatCoincideAreMovedApart),
+        cmocka_unit_test(sizesThatPovraySeesWell),
+        cmocka_unit_test(sizesForTheCamera),
+        cmocka_unit_test(missingPovraySaysHowToInstallIt),
+        cmocka_unit_test(failureAndTimeoutAreTold),
+        cmocka_unit_test(theRealOneDrawsOurPicture),
+        cmocka_unit_test(theRealOnesErrorIsQuoted),
     };
     return cmocka_run_group_tests_name("povray", tests, NULL, NULL);
 }
