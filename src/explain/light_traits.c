@@ -419,12 +419,13 @@ static void addLightScales(const Scene *scene, Traits *traits)
 void addLightTraits(const Scene *scene, Traits *traits)
 {
     addShadowTraits(scene, traits);
-    addLightScales(scene,
-                   traits); /* before the falloff, of which some are much the same far from the lamps */
+    /* Flipped normals make some scenes black, as lights do that are missing, and are the likelier mistake. */
+    addFacingTraits(traits);
+    /* Before the falloff, of which some are much the same far from the lamps. */
+    addLightScales(scene, traits);
     addFalloffTraits(traits);
     if (hasHighlights(scene->objects, scene->objectCount))
         addHighlightTraits(scene, traits);
-    addFacingTraits(traits);
     if (!colorIsBlack(scene->render.ambient))
         addTrait(traits, AMBIENT_SCALE);
     if (scene->lightCount > 0)
