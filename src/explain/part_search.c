@@ -322,11 +322,27 @@ static Status measureFully(const PartSearch *tried, const Evidence *full, PartFi
     return search.status;
 }
 
-/* What is tried, of the parts that the differing pixels belong to. */
-typedef void TryParts(PartSearch *search, const DifferenceOwners *owners);
+/* Find the parts that the differing pixels belong to, and try them. */
+static Status searchParts(PartSearch *search, DifferenceOwners *owners)
+{
+    Status status = findDifferenceOwners(search->truth, search->evidence, &search->right, owners);
+    if (!statusIsOk(&status))
+        return status;
+    tryParts(search, owners);
+    return search->status;
+}
 
-static Status findByTrying(const Truth *truth, const Image *wrong, const Image *right, TryParts *tryThem,
-                           PartFinding *finding)
+/* Settings need not be fitted to a part, so what finds one is left out. */
+static Status searchSettings(PartSearch *search, DifferenceOwners *owners)
+{
+    (void)owners;
+    trySettings(search);
+    search->isFound = isPartExact(search);
+    return search->status;
+}
+
+static Status findByTrying(const Truth *truth, const Image *wrong, const Image *right,
+                           Status (*tryThem)(PartSearch *, DifferenceOwners *), PartFinding *finding)
 {
     size_t cost = predictionCost(truth);
     Evidence evidence = {.count = 0}, many = {.count = 0}, full = {.count = 0};
@@ -343,13 +359,10 @@ static Status findByTrying(const Truth *truth, const Image *wrong, const Image *
         status = gatherEvidence(wrong, isDifferent, NULL, MANY_PIXELS / cost + 300, &many);
     if (statusIsOk(&status))
         status = predictPixels(truth, &evidence, NULL, &view, &light, false, &search.right);
-    if (statusIsOk(&status))
-        status = findDifferenceOwners(truth, &evidence, &search.right, &found.owners);
     if (statusIsOk(&status)) {
         ValueChange neutral = neutralValueChange();
         search.before = search.left = measureMisfit(&evidence, &search.right, &neutral, 1, INFINITY).rmse;
-        tryThem(&search, &found.owners);
-        status = search.status;
+        status = tryThem(&search, &found.owners);
     }
     if (statusIsOk(&status) && search.isFound)
         status = gatherEvidence(wrong, isDifferent, NULL, FULL_PIXELS / cost + 2000, &full);
@@ -369,19 +382,12 @@ static Status findByTrying(const Truth *truth, const Image *wrong, const Image *
 
 Status findPart(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding)
 {
-    return findByTrying(truth, wrong, right, tryParts, finding);
-}
-
-static void tryOnlySettings(PartSearch *search, const DifferenceOwners *owners)
-{
-    (void)owners;
-    trySettings(search);
-    search->isFound = isPartExact(search);
+    return findByTrying(truth, wrong, right, searchParts, finding);
 }
 
 Status findSettings(const Truth *truth, const Image *wrong, const Image *right, PartFinding *finding)
 {
-    return findByTrying(truth, wrong, right, tryOnlySettings, finding);
+    return findByTrying(truth, wrong, right, searchSettings, finding);
 }
 
 void freePartFinding(PartFinding *finding)
