@@ -92,3 +92,27 @@ double goDownhill(const Downhill *downhill, double numbers[MOST_NUMBERS])
         numbers[k] = corners[0].numbers[k];
     return corners[0].value;
 }
+
+double goldenSection(double (*measure)(void *context, double number), void *context, double a, double b,
+                     int steps)
+{
+    const double ratio = 0.6180339887498949;
+    double x = b - ratio * (b - a), y = a + ratio * (b - a);
+    double atX = measure(context, x), atY = measure(context, y);
+    for (int step = 0; step < steps; step++) {
+        if (atX <= atY) {
+            b = y;
+            y = x;
+            atY = atX;
+            x = b - ratio * (b - a);
+            atX = measure(context, x);
+        } else {
+            a = x;
+            x = y;
+            atX = atY;
+            y = a + ratio * (b - a);
+            atY = measure(context, y);
+        }
+    }
+    return 0.5 * (a + b);
+}

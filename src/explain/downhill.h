@@ -22,4 +22,10 @@ typedef struct Downhill {
  * lowest place of a valley among several. */
 double goDownhill(const Downhill *downhill, double numbers[MOST_NUMBERS]);
 
+/* The place of the least value between a and b by the golden section (Kiefer, "Sequential minimax search for
+ * a maximum", Proceedings of the AMS 4 (1953)): the middle of what is left after so many steps, each of which
+ * takes one value. */
+double goldenSection(double (*measure)(void *context, double number), void *context, double a, double b,
+                     int steps);
+
 #endif

@@ -44,9 +44,20 @@ static double measureNumbers(void *context, const double numbers[MOST_NUMBERS])
 
 /* ---- The size alone ---- */
 
+typedef struct SizeFit {
+    PlaceFit *fit;
+    double *numbers;
+} SizeFit;
+
+static double measureSize(void *context, double size)
+{
+    const SizeFit *alone = context;
+    alone->numbers[3] = size;
+    return measureNumbers(alone->fit, alone->numbers);
+}
+
 static double fitSize(PlaceFit *fit, double numbers[MOST_NUMBERS])
 {
-    const double ratio = 0.6180339887498949;
     double best = 0, least = INFINITY;
     for (double size = -1.2; size <= 1.21; size += 0.2) {
         numbers[3] = size;
@@ -56,18 +67,8 @@ static double fitSize(PlaceFit *fit, double numbers[MOST_NUMBERS])
             best = size;
         }
     }
-    double a = best - 0.2, b = best + 0.2;
-    for (int step = 0; step < GOLDEN_STEPS && statusIsOk(&fit->search->status); step++) {
-        double x = b - ratio * (b - a), y = a + ratio * (b - a);
-        numbers[3] = x;
-        double atX = measureNumbers(fit, numbers);
-        numbers[3] = y;
-        if (atX <= measureNumbers(fit, numbers))
-            b = y;
-        else
-            a = x;
-    }
-    numbers[3] = 0.5 * (a + b);
+    SizeFit alone = {fit, numbers};
+    numbers[3] = goldenSection(measureSize, &alone, best - 0.2, best + 0.2, GOLDEN_STEPS);
     return measureNumbers(fit, numbers);
 }
 

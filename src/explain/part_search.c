@@ -2,6 +2,7 @@
 #include "explain/part_search.h"
 
 #include "base/cancel.h"
+#include "explain/downhill.h"
 #include "explain/sample_rounding.h"
 
 #include <math.h>
@@ -127,12 +128,23 @@ static void tryFormulas(PartSearch *search, const PartChange *target)
     }
 }
 
+typedef struct ShininessFit {
+    PartSearch *search;
+    PartChange *change;
+} ShininessFit;
+
+static double measureExponent(void *context, double logarithm)
+{
+    const ShininessFit *fit = context;
+    fit->change->light.shininessValue = exp(logarithm);
+    return measurePart(fit->search, fit->change);
+}
+
 /* The exponent of the highlights, by a grid and the golden section between the neighbours of the best. */
 static void tryShininess(PartSearch *search, const PartChange *target)
 {
     if (modelOf(search, target) < MODEL_PHONG || colorIsBlack(target->ofMaterial->specular))
         return;
-    const double ratio = 0.6180339887498949;
     PartChange change = *target;
     change.kind = PART_FORMULA;
     change.light = neutralLightChange();
@@ -149,18 +161,8 @@ static void tryShininess(PartSearch *search, const PartChange *target)
     /* Only where there is something to be gained. */
     if (!(least < 0.7 * search->before))
         return;
-    double a = log(best / 2), b = log(best * 2);
-    for (int step = 0; step < 14 && statusIsOk(&search->status); step++) {
-        double x = b - ratio * (b - a), y = a + ratio * (b - a);
-        change.light.shininessValue = exp(x);
-        double atX = measurePart(search, &change);
-        change.light.shininessValue = exp(y);
-        if (atX <= measurePart(search, &change))
-            b = y;
-        else
-            a = x;
-    }
-    double exponent = exp(0.5 * (a + b));
+    ShininessFit fit = {search, &change};
+    double exponent = exp(goldenSection(measureExponent, &fit, log(best / 2), log(best * 2), 14));
     change.light.shininessValue =
         fabs(exponent - round(exponent)) < 0.02 * exponent ? round(exponent) : exponent;
     tryPart(search, &change, PART_SHARE);
